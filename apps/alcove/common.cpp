@@ -1,0 +1,48 @@
+#include "common.h"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+
+#include <map>
+
+namespace alcove::cli {
+
+void add_common_options(CLI::App& verb, CommonOptions& options) {
+    static const std::map<std::string, ProgressMode> modes{{"auto", ProgressMode::automatic},
+                                                           {"bar", ProgressMode::bar},
+                                                           {"plain", ProgressMode::plain},
+                                                           {"none", ProgressMode::none}};
+    verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
+    verb.add_flag("--json", options.json, "Print the result as one JSON object on stdout");
+    verb.add_option("--progress", options.progress, "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
+        ->transform(CLI::Transformer(modes).description(""))
+        ->option_text("MODE");
+    verb.add_flag("--quiet", options.quiet, "Neither progress nor warnings");
+}
+
+void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options) {
+    if (options.quiet)
+        return;
+    for (const std::string& warning : warnings)
+        fmt::print(stderr, "alcove: warning: {}\n", warning);
+}
+
+void print_json(const nlohmann::ordered_json& object) {
+    fmt::print("{}\n", object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+std::size_t peak_rss_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+double Stopwatch::lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+}
+
+}

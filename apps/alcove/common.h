@@ -1,0 +1,53 @@
+/// What all verbs share: their common options, how they warn, time and report.
+#pragma once
+
+#include "progress.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace alcove::cli {
+
+/// The command line cannot be meant: exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct CommonOptions {
+    unsigned threads = 0;
+    bool json = false;
+    bool quiet = false;
+    ProgressMode progress = ProgressMode::automatic;
+
+    ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
+};
+
+/// Adds --threads, --json, --progress, --quiet to a verb.
+void add_common_options(CLI::App& verb, CommonOptions& options);
+
+/// Prints warnings to stderr, a line each, unless quiet.
+void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
+
+/// Prints the object on stdout.
+void print_json(const nlohmann::ordered_json& object);
+
+std::size_t peak_rss_bytes();
+
+/// Wall-clock seconds since it was made or last asked.
+class Stopwatch {
+  public:
+    double lap();
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// The verbs: each adds itself to the program, with the work as its callback.
+void add_bake(CLI::App& program);
+
+}

@@ -1,0 +1,46 @@
+#include "common.h"
+
+#include "alcove/errors.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
+
+int complain(ExitCode code, const char* message) {
+    fmt::print(stderr, "alcove: {}\n", message);
+    return code;
+}
+
+}
+
+int main(int argc, char** argv) {
+    CLI::App program{"Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
+    program.set_version_flag("--version", "alcove " ALCOVE_VERSION);
+    program.require_subcommand(1);
+    program.footer("Start with: alcove bake model.ply -o model_ao.ply");
+    program.get_formatter()->column_width(36);
+    try {
+        alcove::cli::add_bake(program);
+        program.parse(argc, argv);
+        return done;
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+            return program.exit(error);
+        return complain(usage, fmt::format("{}; see alcove --help", error.what()).c_str());
+    } catch (const alcove::cli::UsageError& error) {
+        return complain(usage, error.what());
+    } catch (const alcove::InputError& error) {
+        return complain(bad_input, error.what());
+    } catch (const alcove::LimitError& error) {
+        return complain(bad_input, error.what());
+    } catch (const std::bad_alloc&) {
+        return complain(failure, "out of memory: use a coarser --voxel");
+    } catch (const std::exception& error) {
+        return complain(failure, error.what());
+    }
+}

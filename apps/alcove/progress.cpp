@@ -1,0 +1,48 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <unistd.h>
+
+namespace alcove::cli {
+namespace {
+
+constexpr double quiet_seconds = 1.0;
+
+}
+
+ProgressMeter::ProgressMeter(ProgressMode mode, std::string label) : mode_(mode), label_(std::move(label)) {
+    if (mode_ == ProgressMode::automatic)
+        mode_ = isatty(STDERR_FILENO) ? ProgressMode::bar : ProgressMode::none;
+}
+
+ProgressMeter::~ProgressMeter() {
+    if (shown_ && mode_ == ProgressMode::bar)
+        fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressMeter::operator()(double done) {
+    if (mode_ == ProgressMode::none)
+        return;
+    const auto now = Clock::now();
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const double since = std::chrono::duration<double>(now - last_shown_).count();
+    if (elapsed < quiet_seconds || done >= 1.0 || since < (mode_ == ProgressMode::bar ? 0.1 : 1.0))
+        return;
+    last_shown_ = now;
+    shown_ = true;
+    const std::string left =
+        done > 0.0 ? fmt::format("{:.0f} s left", elapsed / done * (1.0 - done)) : std::string("estimating");
+    if (mode_ == ProgressMode::bar) {
+        constexpr int width = 30;
+        const int filled = static_cast<int>(done * width);
+        fmt::print(stderr, "\r\033[K{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", label_, "", filled, "", width - filled,
+                   100.0 * done, left);
+        std::fflush(stderr);
+    } else {
+        fmt::print(stderr, "{}: {:.0f} %, {}\n", label_, 100.0 * done, left);
+    }
+}
+
+}

@@ -1,0 +1,80 @@
+#include "alcove/field/level_stack.h"
+
+#include <algorithm>
+#include <array>
+
+namespace alcove {
+namespace {
+
+constexpr std::size_t block = 256;
+
+}
+
+LevelStack::LevelStack(const GridStack& stack) {
+    auto levels = std::make_shared<std::vector<Bricks>>();
+    for (const LevelSet& level : stack.levels)
+        levels->emplace_back(level, static_cast<float>(1.0 / stack.frame.diagonal));
+    levels_ = std::move(levels);
+}
+
+std::size_t LevelStack::bytes() const {
+    std::size_t sum = 0;
+    for (const Bricks& level : *levels_)
+        sum += level.bytes();
+    return sum;
+}
+
+std::size_t LevelStack::level_for(float reach) const {
+    std::size_t level = 0;
+    while (level + 1 < levels_->size() && (*levels_)[level].usable() < reach)
+        ++level;
+    return level;
+}
+
+float LevelStack::map(const Vec3& p) const {
+    float distance = 0.0f;
+    for (const Bricks& level : *levels_) {
+        distance = level.map(p);
+        if (distance < level.usable())
+            break;
+    }
+    return distance;
+}
+
+void LevelStack::map(const Points& points, float reach, float* distances) const {
+    if (reach <= this->reach()) {
+        sample_bricks((*levels_)[level_for(reach)].view(), points, distances);
+        return;
+    }
+    for (std::size_t begin = 0; begin < points.count; begin += block)
+        escalate({points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)},
+                 distances + begin);
+}
+
+void LevelStack::escalate(const Points& points, float* distances) const {
+    sample_bricks(levels_->front().view(), points, distances);
+    std::array<float, block> x, y, z, values;
+    std::array<std::uint16_t, block> far; // the points that the level before could not answer
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.count; ++i)
+        if (distances[i] >= levels_->front().usable())
+            far[count++] = static_cast<std::uint16_t>(i);
+    for (std::size_t level = 1; level < levels_->size() && count > 0; ++level) {
+        for (std::size_t k = 0; k < count; ++k) {
+            x[k] = points.x[far[k]];
+            y[k] = points.y[far[k]];
+            z[k] = points.z[far[k]];
+        }
+        const Bricks& bricks = (*levels_)[level];
+        sample_bricks(bricks.view(), {x.data(), y.data(), z.data(), count}, values.data());
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            distances[far[k]] = values[k];
+            if (values[k] >= bricks.usable())
+                far[left++] = far[k];
+        }
+        count = left;
+    }
+}
+
+}

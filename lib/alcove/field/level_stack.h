@@ -1,0 +1,38 @@
+/// The field of a grid stack: each distance from the finest level that knows it.
+#pragma once
+
+#include "alcove/field/bricks.h"
+
+#include <memory>
+
+namespace alcove {
+
+/// Distances in unit space, trilinear on the finest level whose band holds them: neither saturated values nor
+/// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the value
+/// saturates there: a lower bound of the true distance. A probe known to be no further than `reach` from the surface
+/// reads the one level made for that height, its voxel at most half of it.
+///
+/// Copies share the bricks; const use is thread-safe. Models BatchedField.
+class LevelStack {
+  public:
+    /// Reads every grid of the stack; the stack itself is not needed afterwards.
+    explicit LevelStack(const GridStack& stack);
+
+    float map(const Vec3& p) const;
+    void map(const Points& points, float reach, float* distances) const;
+
+    /// Edge of the finest voxel.
+    float resolution() const { return levels_->front().voxel(); }
+    /// Largest distance that is right.
+    float reach() const { return levels_->back().usable(); }
+    const std::vector<Bricks>& levels() const { return *levels_; }
+    std::size_t bytes() const;
+
+  private:
+    std::size_t level_for(float reach) const;
+    void escalate(const Points& points, float* distances) const;
+
+    std::shared_ptr<const std::vector<Bricks>> levels_;
+};
+
+}

@@ -1,0 +1,76 @@
+/// Sphere tracing: rays marched through a field by the distance it answers. J. C. Hart, "Sphere tracing: a
+/// geometric method for the antialiased ray tracing of implicit surfaces" (1996).
+#pragma once
+
+#include "alcove/field/field.h"
+
+#include <algorithm>
+#include <array>
+
+namespace alcove {
+
+struct TraceOptions {
+    float far = 1.0f;          ///< distance along the ray where a miss is certain; may be infinite
+    float hit_distance = 1e-4f; ///< the surface is reached where map() answers less
+    float shortest_step = 1e-4f;
+    int max_steps = 1024; ///< a ray that is not done by then is a miss
+};
+
+/// Rays as arrays, marched together: each round is one batched map().
+struct RayBatch {
+    static constexpr std::size_t capacity = 256;
+    using Values = std::array<float, capacity>;
+
+    Values x, y, z;    ///< origins
+    Values dx, dy, dz; ///< unit directions
+    Values travelled;  ///< in: where to start along the ray; out: where it hit, or a value of at least `far`
+    std::array<bool, capacity> hit;
+    std::array<std::uint16_t, capacity> steps; ///< map() calls spent on each ray
+    std::size_t count = 0;
+
+    void push_back(const Ray& ray, float start) {
+        x[count] = ray.origin.x, y[count] = ray.origin.y, z[count] = ray.origin.z;
+        dx[count] = ray.direction.x, dy[count] = ray.direction.y, dz[count] = ray.direction.z;
+        travelled[count++] = start;
+    }
+};
+
+/// Marches all rays of the batch. Cost: `steps` map() calls a ray.
+template <Field F>
+void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
+    RayBatch::Values x, y, z, distance;
+    std::array<std::uint16_t, RayBatch::capacity> active;
+    std::size_t count = rays.count;
+    for (std::size_t i = 0; i < count; ++i) {
+        active[i] = static_cast<std::uint16_t>(i);
+        rays.hit[i] = false;
+        rays.steps[i] = 0;
+    }
+    for (int step = 0; step < options.max_steps && count > 0; ++step) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = active[k];
+            x[k] = rays.x[i] + rays.travelled[i] * rays.dx[i];
+            y[k] = rays.y[i] + rays.travelled[i] * rays.dy[i];
+            z[k] = rays.z[i] + rays.travelled[i] * rays.dz[i];
+        }
+        map_batch(field, Points{x.data(), y.data(), z.data(), count}, any_reach, distance.data());
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::uint16_t i = active[k];
+            ++rays.steps[i];
+            if (distance[k] < options.hit_distance) {
+                rays.hit[i] = true;
+                continue;
+            }
+            rays.travelled[i] += std::max(distance[k], options.shortest_step);
+            active[left] = i;
+            left += rays.travelled[i] < options.far;
+        }
+        count = left;
+    }
+    // A ray that ran out of steps is a miss.
+    for (std::size_t k = 0; k < count; ++k)
+        rays.travelled[active[k]] = std::max(rays.travelled[active[k]], options.far);
+}
+
+}

@@ -1,0 +1,51 @@
+/// The sparse grids of a surface: narrow-band level sets of one surface, each with twice the voxel of the one
+/// before and the same band counted in voxels.
+#pragma once
+
+#include "alcove/types.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+struct VdbGrid; // an OpenVDB grid (grid/vdb.h), kept out of public headers
+
+/// What the sign of a grid's distances says.
+enum class Sign {
+    /// Negative inside a solid: closed, consistently oriented surfaces.
+    solid,
+    /// Negative only in a thin layer behind the faces, so that the surface still is a zero crossing seen from the
+    /// front; positive elsewhere on both sides. Right for open, nested, leaking and self-touching surfaces.
+    sheet,
+};
+
+/// One narrow-band level set. Its values are scene units, its index space maps to the scene by the grid's own
+/// transform; `voxel`, `origin` say the same in unit space: unit = origin + voxel · index.
+struct LevelSet {
+    std::shared_ptr<const VdbGrid> grid;
+    float voxel = 0.0f;      ///< edge of a voxel, unit space
+    Vec3 origin{0.0f};       ///< centre of the voxel of index (0, 0, 0), unit space
+    float outer_band = 0.0f; ///< voxels from the surface outward where values are distances
+    std::size_t active_voxels = 0;
+    std::size_t bytes = 0; ///< memory of the grid
+};
+
+/// Levels from finest to coarsest. Copies share the grids.
+struct GridStack {
+    Frame frame;
+    Sign sign = Sign::solid;
+    std::vector<LevelSet> levels;
+    std::vector<std::string> warnings; ///< what the surface lost on its way into the grid, in words
+
+    std::size_t bytes() const {
+        std::size_t sum = 0;
+        for (const LevelSet& level : levels)
+            sum += level.bytes;
+        return sum;
+    }
+};
+
+}

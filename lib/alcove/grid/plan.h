@@ -1,0 +1,36 @@
+/// Which levels a bake needs, and what they will take, before anything is allocated.
+#pragma once
+
+#include "alcove/mesh/mesh.h"
+
+#include <cstddef>
+
+namespace alcove {
+
+struct GridOptions {
+    /// Largest distance from the surface that is asked for, unit space, > 0; infinity is cut to the diagonal.
+    float radius = 0.1f;
+    /// Edge of the finest voxel, unit space; 0 chooses 1/256, or radius/8 where that is finer, down to 1/1024.
+    float voxel = 0.0f;
+    /// Voxels outward from the surface on every level, at least 3: map() is right up to one less.
+    float outer_band = 5.0f;
+    /// Voxels inward on every level of a solid, at least 2. Occlusion never looks deeper.
+    float inner_band = 2.0f;
+    /// Bytes that grids and what builds them may take.
+    double memory_limit = 4.0 * (1u << 30);
+};
+
+struct LevelPlan {
+    float voxel = 0.0f; ///< finest, unit space
+    int levels = 1;
+    float outer_band = 0.0f, inner_band = 0.0f;
+    double bytes = 0.0; ///< estimate of the peak while building
+};
+
+/// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted from
+/// area / voxel².
+/// \throw LimitError if a voxel that was asked for needs more than the limit or more than 2^20 voxels along the
+///        diagonal, naming the finest voxel that fits. A voxel of 0 is coarsened until it fits.
+LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
+
+}

@@ -1,0 +1,114 @@
+#include "alcove/grid/surface.h"
+
+#include "alcove/mesh/weld.h"
+#include "alcove/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+constexpr int face_feature = 6;
+
+double corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
+    const Vec3d u = b - at, v = c - at;
+    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+}
+
+}
+
+Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame, double voxel) {
+    positions_.resize(mesh.positions.size());
+    parallel_for(positions_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+            positions_[v] = (mesh.positions[v] - frame.center) / frame.diagonal / voxel;
+    });
+    triangles_.reserve(triangles.size());
+    face_normals_.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        const Vec3d cross = glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
+        if (const double length = glm::length(cross); length > 0.0) {
+            triangles_.push_back(t);
+            face_normals_.emplace_back(cross / length);
+        }
+    }
+    weight_normals(weld(mesh.positions));
+}
+
+void Surface::weight_normals(std::span<const std::uint32_t> joined) {
+    std::vector<Vec3d> vertex_sum(positions_.size(), Vec3d(0.0));
+    struct HalfEdge {
+        std::uint64_t key;
+        std::uint32_t slot;
+    };
+    std::vector<HalfEdge> half_edges(triangles_.size() * 3);
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const Triangle& tri = triangles_[t];
+            const std::uint32_t at = tri[k], next = tri[(k + 1) % 3], last = tri[(k + 2) % 3];
+            vertex_sum[joined[at]] += corner_angle(positions_[at], positions_[next], positions_[last]) *
+                                      Vec3d(face_normals_[t]);
+            const auto [low, high] = std::minmax(joined[at], joined[next]);
+            const auto slot = static_cast<std::uint32_t>(3 * t + k);
+            half_edges[slot] = {(std::uint64_t{low} << 32) | high, slot};
+        }
+    std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return a.key != b.key ? a.key < b.key : a.slot < b.slot;
+    });
+
+    edge_normals_.resize(half_edges.size());
+    for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
+        Vec3 sum(0.0f);
+        for (end = begin; end < half_edges.size() && half_edges[end].key == half_edges[begin].key; ++end)
+            sum += face_normals_[half_edges[end].slot / 3];
+        for (std::size_t i = begin; i < end; ++i)
+            edge_normals_[half_edges[i].slot] = sum;
+    }
+    vertex_normals_.resize(half_edges.size());
+    for (std::size_t slot = 0; slot < vertex_normals_.size(); ++slot)
+        vertex_normals_[slot] = Vec3(vertex_sum[joined[triangles_[slot / 3][slot % 3]]]);
+}
+
+Surface::Nearest Surface::nearest(std::size_t triangle, const Vec3d& p) const {
+    const Vec3d &a = vertex(triangle, 0), &b = vertex(triangle, 1), &c = vertex(triangle, 2);
+    const Vec3d ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0.0 && d2 <= 0.0)
+        return {ap, 0};
+    const Vec3d bp = p - b;
+    const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+    if (d3 >= 0.0 && d4 <= d3)
+        return {bp, 1};
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0)
+        return {ap - d1 / (d1 - d3) * ab, 3};
+    const Vec3d cp = p - c;
+    const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d6 >= 0.0 && d5 <= d6)
+        return {cp, 2};
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0)
+        return {ap - d2 / (d2 - d6) * ac, 5};
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
+        return {bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 4};
+    const double scale = 1.0 / (va + vb + vc);
+    return {ap - vb * scale * ab - vc * scale * ac, face_feature};
+}
+
+double Surface::distance2(std::size_t triangle, const Vec3d& p) const {
+    const Vec3d offset = nearest(triangle, p).offset;
+    return glm::dot(offset, offset);
+}
+
+ClosestPoint Surface::closest(std::size_t triangle, const Vec3d& p) const {
+    const auto [offset, feature] = nearest(triangle, p);
+    const std::size_t slot = 3 * triangle + static_cast<std::size_t>(feature) % 3;
+    const Vec3 normal = feature == face_feature ? face_normals_[triangle]
+                        : feature < 3           ? vertex_normals_[slot]
+                                                : edge_normals_[slot];
+    return {glm::dot(offset, offset), glm::dot(offset, Vec3d(normal))};
+}
+
+}

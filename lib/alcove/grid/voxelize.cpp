@@ -1,0 +1,105 @@
+#include "alcove/grid/voxelize.h"
+
+#include "alcove/errors.h"
+#include "alcove/grid/band.h"
+#include "alcove/mesh/diagnose.h"
+
+#include <openvdb/tools/MeshToVolume.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+// Above this share of sign changes away from the surface, a solid is none.
+constexpr double tolerated_contradictions = 1e-3;
+
+struct TrianglesForOpenVdb {
+    const Surface& surface;
+
+    std::size_t polygonCount() const { return surface.size(); }
+    std::size_t pointCount() const { return 3 * surface.size(); }
+    std::size_t vertexCount(std::size_t) const { return 3; }
+    void getIndexSpacePoint(std::size_t triangle, std::size_t corner, openvdb::Vec3d& p) const {
+        const Vec3d& v = surface.vertex(triangle, static_cast<int>(corner));
+        p = {v.x, v.y, v.z};
+    }
+};
+
+/// The voxels next to the surface, each with a triangle near it.
+openvdb::Int32Tree::Ptr rasterize(const Surface& surface) {
+    using namespace openvdb::tools;
+    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+    openvdb::Int32Grid nearest;
+    meshToVolume<openvdb::FloatGrid>(
+        TrianglesForOpenVdb{surface}, *transform, 1.0f, 1.0f,
+        UNSIGNED_DISTANCE_FIELD | DISABLE_INTERSECTING_VOXEL_REMOVAL | DISABLE_RENORMALIZATION, &nearest);
+    return nearest.treePtr();
+}
+
+Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest, std::vector<std::string>& warnings) {
+    if (choice == SignChoice::sheet)
+        return Sign::sheet;
+    const double contradictions = finest.contradictions();
+    if (choice == SignChoice::solid) {
+        if (contradictions > tolerated_contradictions)
+            warnings.push_back(fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the sign changes "
+                                           "are not at its surface: use --sign auto",
+                                           100.0 * contradictions));
+        return Sign::solid;
+    }
+    if (contradictions > tolerated_contradictions)
+        return Sign::sheet;
+    // The wall of a cavity counts as inverted too: as a sheet it is as right.
+    const Closedness surface = closedness(mesh);
+    return surface.closed() && surface.inverted_components == 0 ? Sign::solid : Sign::sheet;
+}
+
+LevelSet finish(const Band& band, Sign sign, const LevelPlan& plan, const Frame& frame, int level) {
+    LevelSet set;
+    set.voxel = std::ldexp(plan.voxel, level);
+    set.outer_band = plan.outer_band;
+    const double scene_voxel = double(set.voxel) * frame.diagonal;
+    const float inner = sign == Sign::solid ? plan.inner_band : sheet_thickness;
+    auto grid = band.level_set(sign, {plan.outer_band, inner}, scene_voxel);
+    auto transform = openvdb::math::Transform::createLinearTransform(scene_voxel);
+    transform->postTranslate({frame.center.x, frame.center.y, frame.center.z});
+    grid->setTransform(transform);
+    grid->setName(level == 0 ? "surface" : fmt::format("surface_{}", level + 1));
+    set.active_voxels = grid->activeVoxelCount();
+    set.bytes = grid->memUsage();
+    set.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
+    return set;
+}
+
+}
+
+GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options) {
+    const LevelPlan plan = plan_levels(mesh, triangles, options.grid);
+    GridStack stack;
+    stack.frame = frame_of(mesh.box());
+    const Surface surface(mesh, triangles, stack.frame, plan.voxel);
+    if (surface.size() == 0)
+        throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
+
+    openvdb::initialize();
+    const bool sheet = options.sign == SignChoice::sheet;
+    const BandWidth both{plan.outer_band, plan.outer_band};
+    const BandWidth solid{plan.outer_band, std::max(plan.inner_band, 2.0f)};
+    Band band(surface, 1, rasterize(surface), sheet ? both : solid);
+    stack.sign = choose_sign(options.sign, mesh, band, stack.warnings);
+    if (stack.sign == Sign::sheet && !sheet)
+        band.widen(both);
+    for (int level = 0; level < plan.levels; ++level) {
+        if (level > 0)
+            band = band.coarser(stack.sign == Sign::sheet ? both : solid);
+        stack.levels.push_back(finish(band, stack.sign, plan, stack.frame, level));
+        if (options.progress)
+            options.progress(static_cast<double>(level + 1) / plan.levels);
+    }
+    return stack;
+}
+
+}

@@ -1,0 +1,32 @@
+/// Turns a mesh into narrow-band level sets.
+#pragma once
+
+#include "alcove/grid/grid_stack.h"
+#include "alcove/grid/plan.h"
+#include "alcove/mesh/mesh.h"
+
+#include <functional>
+
+namespace alcove {
+
+enum class SignChoice {
+    automatic, ///< solid where the mesh is closed and oriented outward and its grid agrees, else sheet
+    solid,
+    sheet,
+};
+
+struct VoxelizeOptions {
+    GridOptions grid;
+    SignChoice sign = SignChoice::automatic;
+    /// Told after each finished level: how much of the work is done, in [0, 1]. Called on the calling thread.
+    std::function<void(double done)> progress;
+};
+
+/// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor its
+/// place matter. The finest level touches every triangle; coarser ones are seeded from the one before. The result
+/// does not depend on the number of threads.
+///
+/// \throw InputError if no triangle has an area; LimitError as plan_levels().
+GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options = {});
+
+}

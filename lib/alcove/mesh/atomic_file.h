@@ -1,0 +1,28 @@
+/// A file that appears whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace alcove {
+
+/// Collects bytes in a temporary file beside the target; commit() renames it over the target, the destructor
+/// of an uncommitted one removes it and leaves the target as it was. Every failure throws IoError naming the
+/// target.
+class AtomicFile {
+  public:
+    explicit AtomicFile(const std::filesystem::path& target);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    void write(std::string_view bytes); ///< not buffered: hand over large pieces
+    void commit();
+
+  private:
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    int descriptor_ = -1;
+};
+
+}

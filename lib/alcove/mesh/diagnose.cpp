@@ -1,0 +1,266 @@
+#include "alcove/mesh/diagnose.h"
+
+#include "alcove/mesh/edge_table.h"
+#include "alcove/mesh/normals.h"
+#include "alcove/mesh/weld.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace alcove {
+namespace {
+
+/// The mesh as a surface: what both examinations start from.
+struct Surface {
+    explicit Surface(const Mesh& mesh)
+        : joined(weld(mesh.positions)), faces(sound_faces(mesh, joined)), edges(faces, mesh.vertex_count()) {}
+
+    std::vector<std::uint32_t> joined;
+    SoundFaces faces;
+    EdgeTable edges;
+};
+
+std::size_t forward_uses(std::span<const EdgeUse> uses) {
+    return static_cast<std::size_t>(
+        std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.forward; }));
+}
+
+/// A fan of determinants around the centre of the mesh, in units of its diagonal cubed.
+struct Volume {
+    double sum = 0.0;
+    double magnitude = 0.0;
+
+    void add(const Mesh& mesh, const Frame& frame, std::span<const std::uint32_t> face) {
+        const auto at = [&](std::uint32_t v) { return (mesh.positions[v] - frame.center) / frame.diagonal; };
+        const Vec3d a = at(face[0]);
+        Vec3d b = at(face[1]);
+        for (std::size_t i = 2; i < face.size(); ++i) {
+            const Vec3d c = at(face[i]);
+            const double six_fold = glm::dot(a, glm::cross(b, c));
+            sum += six_fold / 6.0;
+            magnitude += std::abs(six_fold) / 6.0;
+            b = c;
+        }
+    }
+    /// A folded sheet encloses nothing; what rounding leaves of it is no sign.
+    bool negative() const { return sum < -1e-12 * magnitude; }
+};
+
+Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
+    const SoundFaces& faces = surface.faces;
+    Closedness result;
+    DisjointSets components(faces.count());
+    std::vector<char> open(faces.count(), 0);
+    surface.edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        const std::size_t forward = forward_uses(uses);
+        const bool unbalanced = 2 * forward != uses.size();
+        const std::uint32_t face = faces.face_of[uses[0].corner];
+        ++result.edges;
+        result.open_edges += uses.size() == 1;
+        result.non_manifold_edges += uses.size() >= 3;
+        result.flipped_edges += uses.size() == 2 && unbalanced;
+        result.unbalanced_edges += unbalanced;
+        open[face] = open[face] || unbalanced;
+        for (const EdgeUse& use : uses.subspan(1))
+            components.join(face, faces.face_of[use.corner]);
+    });
+
+    const Frame frame = frame_of(mesh.box());
+    std::vector<Volume> volumes(faces.count());
+    for (std::uint32_t f = 0; f < faces.count(); ++f) {
+        const std::uint32_t component = components.find(f);
+        open[component] = open[component] || open[f];
+        volumes[component].add(mesh, frame, faces.face(f));
+    }
+    double volume = 0.0;
+    for (std::uint32_t f = 0; f < faces.count(); ++f) {
+        if (components.find(f) != f)
+            continue;
+        ++result.components;
+        if (!open[f]) {
+            ++result.closed_components;
+            result.inverted_components += volumes[f].negative();
+            volume += volumes[f].sum;
+        }
+    }
+    result.signed_volume = volume * frame.diagonal * frame.diagonal * frame.diagonal;
+    return result;
+}
+
+std::size_t boundary_edges_as_indexed(const Mesh& mesh) {
+    std::vector<std::uint32_t> apart(mesh.vertex_count());
+    std::iota(apart.begin(), apart.end(), 0u);
+    const SoundFaces faces = sound_faces(mesh, apart);
+    std::size_t count = 0;
+    EdgeTable(faces, mesh.vertex_count()).for_each_edge([&](std::span<const EdgeUse> uses) {
+        count += uses.size() == 1;
+    });
+    return count;
+}
+
+/// Corners of one vertex whose faces meet across edges form a fan.
+void examine_fans(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
+    const SoundFaces& faces = surface.faces;
+    DisjointSets fans(faces.corners.size());
+    std::vector<std::uint32_t> rims; // the corners where open edges start
+    surface.edges.for_each_edge([&](std::span<const EdgeUse> uses) {
+        const auto low = [&](const EdgeUse& u) { return u.forward ? u.corner : faces.next(u.corner); };
+        const auto high = [&](const EdgeUse& u) { return u.forward ? faces.next(u.corner) : u.corner; };
+        for (const EdgeUse& use : uses.subspan(1)) {
+            fans.join(low(uses[0]), low(use));
+            fans.join(high(uses[0]), high(use));
+        }
+        if (uses.size() == 1)
+            rims.push_back(uses[0].corner);
+    });
+    std::vector<std::uint32_t> fans_of(mesh.vertex_count(), 0);
+    for (std::uint32_t corner = 0; corner < faces.corners.size(); ++corner)
+        if (fans.find(corner) == corner)
+            result.non_manifold_vertices += ++fans_of[faces.corners[corner]] == 2;
+
+    // Open edges that meet in a fan follow each other around a hole.
+    for (const std::uint32_t corner : rims)
+        fans.join(corner, faces.next(corner));
+    std::vector<std::uint32_t> loops;
+    for (const std::uint32_t corner : rims)
+        loops.push_back(fans.find(corner));
+    std::sort(loops.begin(), loops.end());
+    result.boundary_loops = static_cast<std::size_t>(std::unique(loops.begin(), loops.end()) - loops.begin());
+}
+
+std::size_t faces_without_area(const Mesh& mesh, const SoundFaces& faces) {
+    const double scale = exact_scale(mesh);
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < faces.count(); ++f) {
+        const auto face = faces.face(f);
+        const auto at = [&](std::uint32_t v) {
+            return scale * (mesh.positions[v] - mesh.positions[face[0]]);
+        };
+        Vec3d normal(0.0), a = at(face[1]);
+        double bound = 0.0;
+        for (std::size_t i = 2; i < face.size(); ++i) {
+            const Vec3d b = at(face[i]);
+            normal += glm::cross(a, b);
+            bound += glm::length(a) * glm::length(b);
+            a = b;
+        }
+        count += glm::length(normal) <= flat_sine * bound;
+    }
+    return count;
+}
+
+std::size_t count_duplicates(const SoundFaces& faces) {
+    const auto vertices_of = [&](std::uint32_t f) {
+        const auto face = faces.face(f);
+        std::vector<std::uint32_t> sorted(face.begin(), face.end());
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
+    };
+    // A sum of hashed vertices does not ask for their order; equal sums are looked at closely.
+    struct Entry {
+        std::uint64_t sum;
+        std::uint32_t face;
+    };
+    std::vector<Entry> entries(faces.count());
+    for (std::uint32_t f = 0; f < faces.count(); ++f) {
+        std::uint64_t sum = 0;
+        for (const std::uint32_t v : faces.face(f)) {
+            std::uint64_t x = (v + 1ULL) * 0x9e3779b97f4a7c15ULL;
+            x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+            sum += x ^ (x >> 27);
+        }
+        entries[f] = {sum, f};
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.sum < b.sum; });
+    std::size_t count = 0;
+    for (std::size_t at = 0, after = 0; at < entries.size(); at = after) {
+        while (after < entries.size() && entries[after].sum == entries[at].sum)
+            ++after;
+        if (after - at < 2)
+            continue;
+        std::vector<std::vector<std::uint32_t>> sets;
+        for (std::size_t i = at; i < after; ++i)
+            sets.push_back(vertices_of(entries[i].face));
+        std::sort(sets.begin(), sets.end());
+        count += static_cast<std::size_t>(sets.end() - std::unique(sets.begin(), sets.end()));
+    }
+    return count;
+}
+
+void count_elements(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
+    result.vertices = mesh.vertex_count();
+    result.faces = mesh.face_count();
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const std::size_t corners = mesh.face(f).size();
+        result.triangles += corners == 3;
+        result.quads += corners == 4;
+        result.larger_polygons += corners > 4;
+    }
+    std::vector<char> referenced(mesh.vertex_count(), 0);
+    for (const std::uint32_t v : mesh.corners)
+        referenced[v] = 1;
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        result.unreferenced_vertices += referenced[v] == 0;
+        result.non_finite_vertices += !is_finite(mesh.positions[v]);
+        result.coincident_vertices += surface.joined[v] != v;
+    }
+}
+
+}
+
+Closedness closedness(const Mesh& mesh) {
+    return closedness_of(mesh, Surface(mesh));
+}
+
+Diagnosis diagnose(const Mesh& mesh) {
+    const Surface surface(mesh);
+    Diagnosis result{closedness_of(mesh, surface)};
+    count_elements(mesh, surface, result);
+    result.boundary_edges =
+        result.coincident_vertices > 0 ? boundary_edges_as_indexed(mesh) : result.open_edges;
+    examine_fans(mesh, surface, result);
+    result.degenerate_faces = surface.faces.collapsed + faces_without_area(mesh, surface.faces);
+    result.duplicate_faces = count_duplicates(surface.faces);
+    return result;
+}
+
+std::vector<std::string> describe(const Diagnosis& d) {
+    std::vector<std::string> lines;
+    const auto say = [&](std::size_t count, std::string_view one, std::string_view many,
+                         std::string_view meaning) {
+        if (count > 0)
+            lines.push_back(fmt::format("{} {}: {}", count, count == 1 ? one : many, meaning));
+    };
+    if (d.closed())
+        lines.push_back(d.closed_components == 1
+                            ? "closed: inside and outside are known"
+                            : fmt::format("closed in {} parts: inside and outside are known", d.components));
+    if (d.open_edges > 0)
+        say(d.open_edges, "open edge", "open edges",
+            fmt::format(
+                "{} {} or rims, so distances tell no inside from outside; fill the holes for signed ones",
+                d.boundary_loops, d.boundary_loops == 1 ? "hole" : "holes"));
+    say(d.flipped_edges, "flipped edge", "flipped edges",
+        "neighbouring faces disagree on the outside and vertex normals cancel there; orient the faces alike");
+    say(d.inverted_components, "part inside out", "parts inside out",
+        "normals point into the solid; flip its faces unless it is the wall of a cavity");
+    say(d.non_manifold_edges, "non-manifold edge", "non-manifold edges",
+        "three or more faces meet; harmless to distances, normals average all of them");
+    say(d.non_manifold_vertices, "non-manifold vertex", "non-manifold vertices",
+        "sheets touch in a point; normals average both");
+    say(d.seam_edges(), "seam edge", "seam edges",
+        "closed but for vertices kept apart; area-weighted normals break there, bring normals or merge "
+        "vertices");
+    say(d.degenerate_faces, "face without area", "faces without area", "they count for nothing");
+    say(d.duplicate_faces, "duplicate face", "duplicate faces",
+        "remove them: they may flip inside and outside");
+    say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "without a normal, left open");
+    say(d.non_finite_vertices, "vertex that is not finite", "vertices that are not finite",
+        "left out with their faces, which leaves holes; mend the coordinates");
+    return lines;
+}
+
+}

@@ -1,0 +1,68 @@
+/// The edges of a polygon soup with all their faces, however many; internal to the library.
+#pragma once
+
+#include "alcove/mesh/mesh.h"
+
+namespace alcove {
+
+/// The faces that have a surface, as loops of joined vertices.
+struct SoundFaces {
+    std::vector<std::uint32_t> begin{0}; ///< faces + 1 offsets into `corners`
+    std::vector<std::uint32_t> corners;  ///< no corner equals the next, around the end too
+    std::vector<std::uint32_t> face_of;  ///< one a corner
+    std::size_t collapsed = 0;           ///< faces left out: fewer than three corners, all finite
+
+    std::size_t count() const { return begin.size() - 1; }
+    std::span<const std::uint32_t> face(std::size_t f) const {
+        return {corners.data() + begin[f], corners.data() + begin[f + 1]};
+    }
+    std::uint32_t next(std::uint32_t corner) const {
+        const std::uint32_t f = face_of[corner];
+        return corner + 1 == begin[f + 1] ? begin[f] : corner + 1;
+    }
+};
+
+/// `joined` gives every vertex the one that stands for it (weld.h, or each itself).
+SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined);
+
+/// One side of a face, from `corner` to the next.
+struct EdgeUse {
+    std::uint32_t high;   ///< the larger of the edge's vertices
+    std::uint32_t corner; ///< where the side starts
+    bool forward;         ///< from the smaller vertex to the larger
+};
+
+/// All sides of all faces, those of an edge together, in an order that only the faces decide. 12 bytes a
+/// side.
+class EdgeTable {
+  public:
+    EdgeTable(const SoundFaces& faces, std::size_t vertex_count);
+
+    /// Calls `visit(std::span<const EdgeUse>)` once an edge.
+    template <class Visit>
+    void for_each_edge(Visit&& visit) const {
+        for (std::size_t v = 0; v + 1 < begin_.size(); ++v)
+            for (std::size_t at = begin_[v], after = at; at < begin_[v + 1]; at = after) {
+                while (after < begin_[v + 1] && uses_[after].high == uses_[at].high)
+                    ++after;
+                visit(std::span(uses_).subspan(at, after - at));
+            }
+    }
+
+  private:
+    std::vector<std::size_t> begin_; // by the smaller vertex
+    std::vector<EdgeUse> uses_;
+};
+
+/// Disjoint sets of the numbers below `count`; a set is named by its smallest.
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t count);
+    std::uint32_t find(std::uint32_t i);
+    void join(std::uint32_t a, std::uint32_t b);
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+}

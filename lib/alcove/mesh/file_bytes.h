@@ -1,0 +1,48 @@
+/// A whole file in memory, and the errors that name a place in it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace alcove {
+
+class FileBytes {
+  public:
+    /// Reads everything at once; regular files and pipes. \throw InputError for a folder, a device or an
+    /// empty file, IoError if the file cannot be opened or read.
+    explicit FileBytes(const std::filesystem::path& file);
+    /// Takes the bytes as if they had been read from `file`.
+    FileBytes(const std::filesystem::path& file, std::string_view bytes);
+
+    const std::filesystem::path& path() const { return path_; }
+    const char* begin() const { return bytes_.get(); }
+    const char* end() const { return bytes_.get() + size_; } ///< a readable zero byte follows the last one
+    std::size_t size() const { return size_; }
+    std::string_view view() const { return {begin(), size_}; }
+
+    /// \throw InputError "file: message".
+    [[noreturn]] void fail(std::string_view message) const;
+    /// \throw InputError "file: line N: message". Lines end with LF, CRLF or CR.
+    [[noreturn]] void fail_at_line(const char* place, std::string_view message) const;
+    /// \throw InputError "file: byte N: message", counted from 0.
+    [[noreturn]] void fail_at_byte(const char* place, std::string_view message) const;
+
+  private:
+    std::filesystem::path path_;
+    std::unique_ptr<char[]> bytes_;
+    std::size_t size_ = 0;
+};
+
+/// The text between quotes for a message: cut to 40 characters, unprintable ones shown as '?'.
+std::string quoted(std::string_view text);
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::size_t count);
+
+/// "1 vertex", "1,234 vertices".
+std::string counted(std::size_t count, std::string_view singular, std::string_view plural);
+
+}

@@ -1,0 +1,43 @@
+#include "alcove/mesh/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace alcove {
+
+bool is_finite(const Vec3d& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void Mesh::add_face(std::span<const std::uint32_t> vertices) {
+    corners.insert(corners.end(), vertices.begin(), vertices.end());
+    face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
+}
+
+Box Mesh::box() const {
+    Box box;
+    for (const Vec3d& p : positions)
+        if (is_finite(p))
+            box.add(p);
+    return box;
+}
+
+void Mesh::set_attribute(Attribute attribute) {
+    if (attribute.values.size() != vertex_count() * static_cast<std::size_t>(attribute.components))
+        throw std::invalid_argument("attribute '" + attribute.name + "' does not have one value a vertex");
+    const auto same = std::find_if(attributes.begin(), attributes.end(),
+                                   [&](const Attribute& a) { return a.name == attribute.name; });
+    if (same != attributes.end())
+        *same = std::move(attribute);
+    else
+        attributes.push_back(std::move(attribute));
+}
+
+const Attribute* Mesh::find_attribute(std::string_view name) const {
+    const auto found = std::find_if(attributes.begin(), attributes.end(),
+                                    [&](const Attribute& a) { return a.name == name; });
+    return found == attributes.end() ? nullptr : &*found;
+}
+
+}

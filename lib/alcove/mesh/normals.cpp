@@ -1,0 +1,90 @@
+#include "alcove/mesh/normals.h"
+
+#include "alcove/errors.h"
+#include "alcove/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+constexpr double cancelled = 1e-12;
+constexpr std::size_t grain = 1 << 15;
+
+struct Sum {
+    Vec3d vector{0.0};
+    double in_line = 0.0;
+};
+
+/// Unit length, or zero where that is impossible.
+Vec3 unit_or_zero(const Vec3& n) {
+    const double length = glm::length(Vec3d(n));
+    return length > 0.0 && std::isfinite(length) ? Vec3(Vec3d(n) / length) : Vec3(0.0f);
+}
+
+}
+
+double exact_scale(const Mesh& mesh) {
+    const int exponent = std::ilogb(frame_of(mesh.box()).diagonal);
+    return std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
+}
+
+std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
+    const double scale = exact_scale(mesh);
+
+    // One thread: the order of the additions is the result, and the loop waits for memory rather than
+    // arithmetic.
+    std::vector<Sum> sums(mesh.vertex_count());
+    for (const Triangle& t : triangles) {
+        const Vec3d& origin = mesh.positions[t[0]];
+        const Vec3d a = scale * (mesh.positions[t[1]] - origin), b = scale * (mesh.positions[t[2]] - origin);
+        const Vec3d cross = glm::cross(a, b);
+        const double length = glm::length(cross);
+        if (length <= flat_sine * glm::length(a) * glm::length(b))
+            continue;
+        for (const std::uint32_t v : t) {
+            sums[v].vector += cross;
+            sums[v].in_line += length;
+        }
+    }
+
+    std::vector<Vec3> normals(mesh.vertex_count());
+    parallel_for(normals.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const double length = glm::length(sums[v].vector);
+            normals[v] = length > cancelled * sums[v].in_line ? Vec3(sums[v].vector / length) : Vec3(0.0f);
+        }
+    });
+    return normals;
+}
+
+std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
+                                 NormalSource source) {
+    if (source == NormalSource::file && mesh.normals.empty())
+        throw InputError("the mesh has no normals of its own; use --normals area");
+    const bool from_file = source != NormalSource::area && !mesh.normals.empty();
+
+    std::vector<Vec3> normals(mesh.vertex_count(), Vec3(0.0f));
+    bool missing = !from_file;
+    for (std::size_t v = 0; from_file && v < normals.size(); ++v) {
+        normals[v] = unit_or_zero(mesh.normals[v]);
+        missing = missing || normals[v] == Vec3(0.0f);
+    }
+    if (missing && source != NormalSource::file) {
+        const std::vector<Vec3> area = area_weighted_normals(mesh, triangles);
+        for (std::size_t v = 0; v < normals.size(); ++v)
+            if (normals[v] == Vec3(0.0f))
+                normals[v] = area[v];
+    }
+
+    std::vector<Surfel> surfels(mesh.vertex_count());
+    parallel_for(surfels.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+            surfels[v] = is_finite(mesh.positions[v]) ? Surfel{frame.to_unit(mesh.positions[v]), normals[v]}
+                                                      : Surfel{Vec3(0.0f), Vec3(0.0f)};
+    });
+    return surfels;
+}
+
+}

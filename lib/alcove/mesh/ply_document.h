@@ -1,0 +1,67 @@
+/// A PLY file as it was: every comment, element, property and value, in memory order of the binary format.
+/// Format: Greg Turk, "The PLY Polygon File Format" (1994).
+#pragma once
+
+#include "alcove/mesh/mesh.h"
+#include "alcove/mesh/source.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace alcove {
+
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::size_t size_of(PlyType type);
+std::string_view name_of(PlyType type);                       ///< "char", "uchar", ... "double"
+std::optional<PlyType> ply_type_named(std::string_view name); ///< also "int8", "uint8", ... "float64"
+inline bool is_integral(PlyType type) {
+    return type < PlyType::float32;
+}
+
+/// The little-endian value at `bytes`; not aligned.
+double number_at(const std::byte* bytes, PlyType type);
+std::int64_t integer_at(const std::byte* bytes, PlyType type); ///< of an integral type
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::float32;
+    std::optional<PlyType> count_type; ///< set for a list: the type of the number in front of its items
+};
+
+struct PlyElement {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<PlyProperty> properties;
+    std::vector<std::byte> rows; ///< all rows one after another, packed, little endian
+
+    const PlyProperty* find(std::string_view property) const;
+    bool has_lists() const;
+    std::size_t smallest_row() const; ///< bytes of a row whose lists are empty
+};
+
+/// The bytes one value, or one list with its count, takes at `bytes`.
+inline std::size_t stored_size(const PlyProperty& property, const std::byte* bytes) {
+    if (!property.count_type)
+        return size_of(property.type);
+    return size_of(*property.count_type) +
+           static_cast<std::size_t>(integer_at(bytes, *property.count_type)) * size_of(property.type);
+}
+
+class PlyDocument : public SourceDocument {
+  public:
+    std::vector<std::string> comments; ///< whole lines, "comment ..." or "obj_info ...", in file order
+    std::vector<PlyElement> elements;
+
+    const PlyElement* find(std::string_view element) const;
+};
+
+/// The document of a mesh that came from elsewhere: `vertex` with x y z, and nx ny nz, s t, red green blue
+/// alpha where the mesh has them; `face` with vertex_indices, and texcoord, red green blue alpha. Coordinates
+/// become float unless that moves some vertex by more than 1e-6 of the diagonal; then double.
+PlyDocument make_ply_document(const Mesh& mesh);
+
+}

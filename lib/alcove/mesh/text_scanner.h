@@ -1,0 +1,132 @@
+/// Numbers and words out of a text held in memory, fast and strict: every failure names the line.
+#pragma once
+
+#include "alcove/mesh/file_bytes.h"
+
+#include <fast_float/fast_float.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace alcove {
+
+/// Walks a text from token to token. Tokens are separated by blanks and line ends (LF, CRLF, CR); where a
+/// comment character is given, it and the rest of its line count as a line end.
+class TextScanner {
+  public:
+    TextScanner(const FileBytes& file, const char* begin, char comment = '\0')
+        : file_(file), at_(begin), end_(file.end()), comment_(comment) {}
+
+    const char* at() const { return at_; }
+    const char* end() const { return end_; }
+    std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+
+    /// Skips blanks; true at a line end, a comment or the end of the file.
+    bool at_line_end() {
+        while (at_ < end_ && is_blank(*at_))
+            ++at_;
+        return at_ == end_ || is_line_end(*at_) || (comment_ != '\0' && *at_ == comment_);
+    }
+    /// Moves behind the end of this line.
+    void next_line() {
+        while (at_ < end_ && !is_line_end(*at_))
+            ++at_;
+        const bool carriage_return = at_ < end_ && *at_ == '\r';
+        if (at_ < end_)
+            ++at_;
+        if (carriage_return && at_ < end_ && *at_ == '\n')
+            ++at_;
+    }
+    /// Skips blanks, line ends and comments; true at the end of the file.
+    bool at_end() {
+        while (at_line_end()) {
+            if (at_ == end_)
+                return true;
+            next_line();
+        }
+        return false;
+    }
+    /// The token here, without moving; empty at a line end.
+    std::string_view peek() {
+        if (at_line_end())
+            return {};
+        const char* last = at_;
+        while (last < end_ && !is_delimiter(*last))
+            ++last;
+        return {at_, static_cast<std::size_t>(last - at_)};
+    }
+    /// The tokens from here to the end of the line, without moving.
+    std::size_t tokens_on_line() {
+        TextScanner ahead(*this);
+        std::size_t count = 0;
+        for (; !ahead.at_line_end(); ++count)
+            ahead.at_ += ahead.peek().size();
+        return count;
+    }
+
+    /// The next token, on this line or a later one. \throw InputError at the end of the file.
+    std::string_view word(const char* expected) {
+        if (at_end())
+            fail_early(expected);
+        const std::string_view token = peek();
+        at_ += token.size();
+        return token;
+    }
+    /// The next token as a number; 'nan' and 'inf' are numbers. \throw InputError if it is none.
+    template <class Real = double>
+    Real number(const char* expected) {
+        if (at_end())
+            fail_early(expected);
+        Real value{};
+        const char* first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
+        const auto [last, error] = fast_float::from_chars(first, end_, value);
+        if (error == std::errc::invalid_argument || (last < end_ && !is_delimiter(*last)))
+            fail_token("a number", expected);
+        at_ = last;
+        return value;
+    }
+    /// The next token as a whole number. \throw InputError if it is none or has more than 18 digits.
+    std::int64_t integer(const char* expected) {
+        if (at_end())
+            fail_early(expected);
+        const char* digit = at_;
+        const bool negative = *digit == '-';
+        if (negative || *digit == '+')
+            ++digit;
+        const char* const first = digit;
+        std::int64_t value = 0;
+        for (; digit < end_ && *digit >= '0' && *digit <= '9'; ++digit)
+            if (digit - first < longest_integer)
+                value = value * 10 + (*digit - '0');
+        if (digit == first || digit - first > longest_integer || (digit < end_ && !is_delimiter(*digit)))
+            fail_token("a whole number", expected);
+        at_ = digit;
+        return negative ? -value : value;
+    }
+
+    [[noreturn]] void fail(std::string_view message) const { file_.fail_at_line(at_, message); }
+    [[noreturn]] void fail_early(const char* expected) const {
+        file_.fail_at_line(end_, std::string("the file ends early: ") + expected +
+                                     " is missing; copy or export it again");
+    }
+
+  private:
+    static constexpr std::ptrdiff_t longest_integer = 18;
+
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+    bool is_delimiter(char c) const {
+        return is_blank(c) || is_line_end(c) || (comment_ != '\0' && c == comment_);
+    }
+    [[noreturn]] void fail_token(const char* kind, const char* expected) {
+        const std::string_view token = peek();
+        fail(quoted(token) + " is not " + kind + "; " + expected + " is expected here");
+    }
+
+    const FileBytes& file_;
+    const char* at_;
+    const char* end_;
+    char comment_;
+};
+
+}

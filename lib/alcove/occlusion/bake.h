@@ -1,0 +1,51 @@
+/// Surfels × field × estimator -> values.
+#pragma once
+
+#include "alcove/occlusion/estimator.h"
+#include "alcove/parallel.h"
+
+#include <functional>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// Told how much of the work is done, in [0, 1]; never from two threads at once.
+using Progress = std::function<void(double done)>;
+
+/// The indices of the surfels that have a normal, along a Morton curve: neighbours in the list are neighbours in
+/// space, so a batch reads few bricks. G. M. Morton, "A computer oriented geodetic data base" (1966).
+std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
+
+/// One value a surfel, in [0, 1]; 1 where there is no normal. The values do not depend on the number of threads
+/// nor on the order of the surfels. Cost: that of the estimator, a surfel.
+template <Field F, Estimator<F> E>
+std::vector<float> bake(std::span<const Surfel> surfels, const F& field, const E& estimator,
+                        const Progress& progress = {}) {
+    std::vector<float> ao(surfels.size(), 1.0f);
+    const std::vector<std::uint32_t> order = spatial_order(surfels);
+    constexpr std::size_t grain = 16 * SurfelBatch::capacity;
+    std::mutex progress_mutex;
+    std::size_t finished = 0;
+    parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
+        SurfelBatch batch;
+        SurfelBatch::Values values;
+        for (std::size_t at = begin; at < end; at += batch.count) {
+            batch.count = 0;
+            for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
+                batch.push_back(surfels[order[i]]);
+            estimator(field, batch, values.data());
+            for (std::size_t k = 0; k < batch.count; ++k)
+                ao[order[at + k]] = values[k];
+        }
+        if (progress) {
+            const std::lock_guard lock(progress_mutex);
+            finished += end - begin;
+            progress(static_cast<double>(finished) / static_cast<double>(order.size()));
+        }
+    });
+    return ao;
+}
+
+}

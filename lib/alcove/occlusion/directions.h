@@ -1,0 +1,76 @@
+/// Directions over the hemisphere around a normal, low-discrepancy and reproducible.
+#pragma once
+
+#include "alcove/types.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace alcove {
+
+/// An orthonormal basis around n, continuous but at n.z = 0−. T. Duff et al., "Building an Orthonormal Basis,
+/// Revisited" (2017).
+struct Basis {
+    Vec3 tangent, bitangent, normal;
+
+    explicit Basis(const Vec3& n) : normal(n) {
+        const float sign = std::copysign(1.0f, n.z);
+        const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+        tangent = {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x};
+        bitangent = {b, sign + n.y * n.y * a, -n.y};
+    }
+    Vec3 to_world(const Vec3& local) const {
+        return local.x * tangent + local.y * bitangent + local.z * normal;
+    }
+};
+
+/// Pdf cos θ / π over the hemisphere around +z; u, v in [0, 1). P. Shirley, K. Chiu (1997), in polar form.
+inline Vec3 cosine_hemisphere(float u, float v) {
+    const float r = std::sqrt(u), phi = 2.0f * std::numbers::pi_v<float> * v;
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0f - u)};
+}
+
+/// Pdf 1 / 2π over the hemisphere around +z; u, v in [0, 1).
+inline Vec3 uniform_hemisphere(float u, float v) {
+    const float r = std::sqrt(1.0f - u * u), phi = 2.0f * std::numbers::pi_v<float> * v;
+    return {r * std::cos(phi), r * std::sin(phi), u};
+}
+
+/// Mixes the bits of x: every output bit depends on every input bit. C. Wellons, "Prospecting for Hash Functions"
+/// (2018), lowbias32.
+inline std::uint32_t hash(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    x ^= x >> 16;
+    return x;
+}
+
+/// [0, 1) from the upper 24 bits.
+inline float unit_interval(std::uint32_t x) {
+    return static_cast<float>(x >> 8) * 0x1p-24f;
+}
+
+/// A number tied to a place and a seed: the same whatever the order of the vertices.
+inline std::uint32_t hash(const Vec3& p, std::uint32_t seed) {
+    std::uint32_t h = hash(seed + 0x9e3779b9u);
+    for (const float coordinate : {p.x, p.y, p.z})
+        h = hash(h ^ std::bit_cast<std::uint32_t>(coordinate + 0.0f));
+    return h;
+}
+
+/// Point i of n of a Fibonacci lattice on the unit square, shifted on the torus by (shift_u, shift_v).
+/// R. Cranley, T. Patterson (1976); lattice: J. Keinert et al., "Spherical Fibonacci Mapping" (2015).
+inline Vec2 fibonacci_point(int i, int n, float shift_u, float shift_v) {
+    constexpr double golden = 0.6180339887498949;
+    const double u = (i + 0.5) / n + shift_u, v = i * golden + shift_v;
+    // Rounding to float may not reach 1.
+    constexpr float below_one = 1.0f - 0x1p-24f;
+    return {std::min(static_cast<float>(u - std::floor(u)), below_one),
+            std::min(static_cast<float>(v - std::floor(v)), below_one)};
+}
+
+}

@@ -1,0 +1,28 @@
+#include "alcove/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace alcove {
+
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
+    const std::size_t blocks = (count + grain - 1) / grain;
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+        body(block * grain, std::min(count, (block + 1) * grain));
+    });
+}
+
+ThreadLimit::ThreadLimit(unsigned threads) {
+    if (threads > 0)
+        control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, threads);
+}
+
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(control_);
+}
+
+}

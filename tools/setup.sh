@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs what building and testing take, from Debian's packages, and unpacks the real meshes of the demo and the
+# tests into build/meshes. Does nothing where all of it is there.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+packages=(
+    g++ cmake ninja-build clang-format clang-tidy ccache
+    libopenvdb-dev libboost-dev libboost-iostreams-dev libopenmesh-dev libtbb-dev libhwy-dev libglm-dev
+    libopenexr-dev libpng-dev libfast-float-dev libfmt-dev libcli11-dev nlohmann-json3-dev libembree-dev
+    libgtest-dev libbenchmark-dev
+)
+
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+missing=()
+for package in "${packages[@]}"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ] || [ ! -d build/meshes ]; then
+    as_root apt-get update -q
+fi
+if [ ${#missing[@]} -gt 0 ]; then
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "${missing[@]}"
+fi
+
+# The meshes come inside the documentation of CGAL's demos. It is unpacked, not installed: some systems leave
+# documentation out of what they install.
+if [ ! -d build/meshes ]; then
+    scratch=$(mktemp -d)
+    trap 'rm -rf "$scratch"' EXIT
+    chmod 755 "$scratch"
+    (cd "$scratch" && apt-get download -q libcgal-demo && dpkg-deb -x libcgal-demo_*.deb . &&
+        tar -xzf usr/share/doc/libcgal-dev/data.tar.gz)
+    mkdir -p build
+    mv "$scratch/data" build/meshes
+fi
