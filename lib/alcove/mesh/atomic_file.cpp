@@ -2,13 +2,14 @@
 
 #include "alcove/errors.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <random>
 #include <string>
 
 namespace alcove {
@@ -19,32 +20,35 @@ namespace {
     throw IoError(target.string() + ": " + what + ": " + std::strerror(reason));
 }
 
-/// What open(2) would have given a new file; mkstemp makes it private.
-mode_t default_mode() {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return 0666 & ~mask;
-}
-
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(target, ignored))
-        throw IoError(target.string() + ": is a folder; name a file to write");
-    if (std::filesystem::exists(target, ignored) && !std::filesystem::is_regular_file(target, ignored))
-        throw IoError(target.string() + ": is a device, not a file; name a file to write");
-    // A link stays a link: the file it points to is replaced.
-    if (std::filesystem::is_symlink(target, ignored))
-        if (auto real = std::filesystem::weakly_canonical(target, ignored); !ignored)
-            target_ = real;
-    std::string name = target_.string() + ".XXXXXX";
-    descriptor_ = ::mkstemp(name.data());
-    if (descriptor_ < 0)
-        fail(target, "cannot be written in its folder");
-    temporary_ = name;
     struct stat old {};
-    ::fchmod(descriptor_, ::stat(target_.c_str(), &old) == 0 ? old.st_mode & 07777 : default_mode());
+    const bool exists = ::stat(target.c_str(), &old) == 0;
+    if (exists && S_ISDIR(old.st_mode))
+        throw IoError(target.string() + ": is a folder; name a file to write");
+    if (exists && !S_ISREG(old.st_mode))
+        throw IoError(target.string() + ": is a device, not a file; name a file to write");
+    if (exists && ::access(target.c_str(), W_OK) != 0)
+        fail(target, "cannot be written");
+    // A link stays a link: the file it points to is replaced.
+    std::error_code unresolved;
+    if (std::filesystem::is_symlink(target, unresolved))
+        target_ = std::filesystem::weakly_canonical(target);
+
+    std::random_device random;
+    do {
+        temporary_ = target_.parent_path() / ".alcove-";
+        temporary_ += std::to_string(random());
+        temporary_ += ".part";
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ < 0) {
+        temporary_.clear();
+        fail(target, "cannot be written");
+    }
+    if (exists)
+        ::fchmod(descriptor_, old.st_mode & 07777);
 }
 
 AtomicFile::~AtomicFile() {

@@ -16,6 +16,9 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
+    /// For writers that open a path of their own.
+    const std::filesystem::path& temporary() const { return temporary_; }
+
     void write(std::string_view bytes); ///< not buffered: hand over large pieces
     void commit();
 

@@ -28,25 +28,30 @@ std::size_t forward_uses(std::span<const EdgeUse> uses) {
         std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.forward; }));
 }
 
-/// A fan of determinants around the centre of the mesh, in units of its diagonal cubed.
+/// Cones from the centre of the mesh over its faces, each face spanned by its edges and the mean of its
+/// corners so that no corner comes first; in units of the diagonal cubed.
 struct Volume {
     double sum = 0.0;
-    double magnitude = 0.0;
+    double bound = 0.0; // what the terms would give if nothing in them cancelled
 
     void add(const Mesh& mesh, const Frame& frame, std::span<const std::uint32_t> face) {
         const auto at = [&](std::uint32_t v) { return (mesh.positions[v] - frame.center) / frame.diagonal; };
-        const Vec3d a = at(face[0]);
-        Vec3d b = at(face[1]);
+        const Vec3d first = at(face[0]);
+        Vec3d side = at(face[1]) - first, total = side, normal(0.0);
+        double areas = 0.0;
         for (std::size_t i = 2; i < face.size(); ++i) {
-            const Vec3d c = at(face[i]);
-            const double six_fold = glm::dot(a, glm::cross(b, c));
-            sum += six_fold / 6.0;
-            magnitude += std::abs(six_fold) / 6.0;
-            b = c;
+            const Vec3d next = at(face[i]) - first;
+            normal += glm::cross(side, next);
+            areas += glm::length(side) * glm::length(next);
+            total += next;
+            side = next;
         }
+        const Vec3d mean = first + total / static_cast<double>(face.size());
+        sum += glm::dot(mean, normal) / 6.0;
+        bound += glm::length(mean) * areas / 6.0;
     }
     /// A folded sheet encloses nothing; what rounding leaves of it is no sign.
-    bool negative() const { return sum < -1e-12 * magnitude; }
+    bool negative() const { return sum < -1e-12 * bound; }
 };
 
 Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
@@ -62,6 +67,7 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
         result.open_edges += uses.size() == 1;
         result.non_manifold_edges += uses.size() >= 3;
         result.flipped_edges += uses.size() == 2 && unbalanced;
+        result.odd_edges += uses.size() % 2;
         result.unbalanced_edges += unbalanced;
         open[face] = open[face] || unbalanced;
         for (const EdgeUse& use : uses.subspan(1))
@@ -125,6 +131,7 @@ void examine_fans(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
     for (const std::uint32_t corner : rims)
         fans.join(corner, faces.next(corner));
     std::vector<std::uint32_t> loops;
+    loops.reserve(rims.size());
     for (const std::uint32_t corner : rims)
         loops.push_back(fans.find(corner));
     std::sort(loops.begin(), loops.end());
@@ -234,15 +241,22 @@ std::vector<std::string> describe(const Diagnosis& d) {
         if (count > 0)
             lines.push_back(fmt::format("{} {}: {}", count, count == 1 ? one : many, meaning));
     };
-    if (d.closed())
-        lines.push_back(d.closed_components == 1
+    if (d.components == 0)
+        lines.push_back("no face spans a surface");
+    else if (d.closed())
+        lines.push_back(d.components == 1
                             ? "closed: inside and outside are known"
                             : fmt::format("closed in {} parts: inside and outside are known", d.components));
-    if (d.open_edges > 0)
-        say(d.open_edges, "open edge", "open edges",
-            fmt::format(
-                "{} {} or rims, so distances tell no inside from outside; fill the holes for signed ones",
-                d.boundary_loops, d.boundary_loops == 1 ? "hole" : "holes"));
+    else if (d.open_edges > 0)
+        lines.push_back(
+            fmt::format("not closed, {} open {} around {} {}: distances tell no inside from outside; "
+                        "fill the holes for signed ones",
+                        d.open_edges, d.open_edges == 1 ? "edge" : "edges", d.boundary_loops,
+                        d.boundary_loops == 1 ? "hole or rim" : "holes or rims"));
+    else if (d.watertight())
+        lines.push_back("without holes, but not all faces turn the same side out");
+    else
+        lines.push_back(fmt::format("not closed, walls end on others along {} edges", d.odd_edges));
     say(d.flipped_edges, "flipped edge", "flipped edges",
         "neighbouring faces disagree on the outside and vertex normals cancel there; orient the faces alike");
     say(d.inverted_components, "part inside out", "parts inside out",

@@ -15,13 +15,16 @@ struct Closedness {
     std::size_t open_edges = 0;          ///< used by one face
     std::size_t non_manifold_edges = 0;  ///< used by three faces or more
     std::size_t flipped_edges = 0;       ///< used by two faces, both running it the same way
-    std::size_t unbalanced_edges = 0;    ///< run more often one way than the other, by any number of faces
+    std::size_t odd_edges = 0;           ///< used by one, three, ... faces: rims, walls that end on others
+    std::size_t unbalanced_edges = 0;    ///< run more often one way than the other: all odd and flipped ones
     std::size_t components = 0;          ///< sets of faces connected across edges
     std::size_t closed_components = 0;   ///< without an unbalanced edge
-    std::size_t inverted_components = 0; ///< closed, of negative volume: inside out, or the wall of a cavity
-    double signed_volume = 0.0; ///< of the closed components, cubic scene units; outward faces give > 0
+    std::size_t inverted_components = 0; ///< closed, of negative volume: inside out, or a cavity
+    double signed_volume = 0.0;          ///< of the closed components, cubic scene units
 
-    /// Whether every edge is run as often one way as the other: the faces bound a solid, up to their sense.
+    /// Whether the surface parts space in inside and outside, whichever way its faces turn.
+    bool watertight() const { return components > 0 && odd_edges == 0; }
+    /// Whether it does and the faces agree on the side: as many run each edge one way as the other.
     bool closed() const { return components > 0 && unbalanced_edges == 0; }
     bool oriented() const { return flipped_edges == 0; }
 };
@@ -45,10 +48,10 @@ struct Diagnosis : Closedness {
     std::size_t seam_edges() const { return boundary_edges > open_edges ? boundary_edges - open_edges : 0; }
 };
 
-/// The part of diagnose() that is cheap enough for every bake: about 0.2 µs a triangle.
+/// The part of diagnose() that is cheap enough for every bake: about 0.15 µs a triangle.
 Closedness closedness(const Mesh& mesh);
 
-/// The whole examination, about 0.5 µs a triangle. Never throws for what a Mesh may hold; thread-safe.
+/// The whole examination, about 0.3 µs a triangle. Never refuses what a Mesh may hold; thread-safe.
 Diagnosis diagnose(const Mesh& mesh);
 
 /// What of it matters for a bake and the mend, one line each; a single line for a sound mesh.

@@ -94,7 +94,7 @@ void FileBytes::fail_at_byte(const char* place, std::string_view message) const 
     fail("byte " + grouped(static_cast<std::size_t>(place - begin())) + ": " + std::string(message));
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string result = "'";
     for (const char c : text.substr(0, longest))

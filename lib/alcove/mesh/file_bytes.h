@@ -37,7 +37,7 @@ class FileBytes {
 };
 
 /// The text between quotes for a message: cut to 40 characters, unprintable ones shown as '?'.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t count);

@@ -14,10 +14,10 @@ class ObjDocument : public SourceDocument {
   public:
     std::string text;
     std::vector<std::size_t> vertex_lines; ///< byte offset of the 'v' of each vertex, in file order
-    std::vector<std::pair<std::string, std::size_t>> keywords; ///< of lines that a Mesh has no place for, and how many
+    std::size_t weights = 0;               ///< vertices whose fourth coordinate is not 1
 
-    /// "3 'usemtl' lines", one string a keyword.
-    std::vector<std::string> other_lines() const;
+    /// Lines a Mesh has no place for: what they are ("'usemtl' lines") and how many, none of them 0.
+    std::vector<std::pair<std::string, std::size_t>> other_lines;
 };
 
 }

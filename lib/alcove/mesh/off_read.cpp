@@ -65,14 +65,9 @@ class ColorList {
     double largest_ = 0.0;
 };
 
-Vec3 unit_or_zero(const Vec3d& n) {
-    const double length = glm::length(n);
-    return std::isfinite(length) && length > 0.0 ? Vec3(n / length) : Vec3(0.0f);
-}
-
 class OffReader {
   public:
-    explicit OffReader(const FileBytes& file) : file_(file), text_(file, file.begin(), '#') {}
+    explicit OffReader(const FileBytes& file) : file_(file), text_(file, file.begin(), off_syntax) {}
 
     Mesh read() {
         read_keyword();
@@ -114,7 +109,7 @@ class OffReader {
                 binary_ = true;
             }
         } else if (keyword.empty() || !(keyword[0] >= '0' && keyword[0] <= '9')) {
-            text_.fail(quoted(keyword) +
+            text_.fail(in_quotes(keyword) +
                        " is no OFF keyword; a file begins with [ST][C][N][4][n]OFF or its counts");
         }
     }
@@ -126,8 +121,8 @@ class OffReader {
         vertices_ = static_cast<std::size_t>(vertices);
         faces_ = static_cast<std::size_t>(faces);
         if (vertices_ > left / vertex_bytes || faces_ > left / face_bytes)
-            fail(grouped(vertices_) + " vertices and " + grouped(faces_) + " faces are announced but only " +
-                 grouped(left) + " bytes follow; copy or export the file again");
+            fail(counted(vertices_, "vertex", "vertices") + " and " + counted(faces_, "face", "faces") +
+                 " are announced but only " + grouped(left) + " bytes follow; copy or export the file again");
         mesh_.positions.reserve(vertices_);
         mesh_.face_begin.reserve(faces_ + 1);
     }
@@ -135,6 +130,7 @@ class OffReader {
     void read_text() {
         if (layout_.dimension && text_.integer("the dimension") != 3)
             text_.fail("vertices of a dimension other than 3 cannot be read; export a plain OFF file");
+        text_.at_end();
         const char* const counts = text_.at();
         const std::int64_t vertices = text_.integer("the number of vertices");
         const std::int64_t faces = text_.integer("the number of faces");
@@ -185,13 +181,26 @@ class OffReader {
         }
         if (text_.at_line_end())
             return;
-        // Vertices may share a line; 3 or 4 more values on every vertex's line are unannounced colours or
+        // Vertices may share a line; 3 or 4 more values on the line of each are unannounced colours or
         // normals.
         const std::size_t left = text_.tokens_on_line();
-        if ((left == 3 || left == 4) && (v == 0 || unannounced_ == v)) {
+        if ((left == 3 || left == 4) && (v == 0 ? every_vertex_line_has(left) : unannounced_ == v)) {
             ++unannounced_;
             text_.next_line();
         }
+    }
+
+    /// Whether the line of each vertex holds `more` values than announced; the first line is read up to
+    /// there.
+    bool every_vertex_line_has(std::size_t more) const {
+        const std::size_t announced = 3u + layout_.weights + 3u * layout_.normals;
+        TextScanner ahead(text_);
+        for (std::size_t v = 1; v < vertices_; ++v) {
+            ahead.next_line();
+            if (ahead.at_end() || ahead.tokens_on_line() != announced + more)
+                return false;
+        }
+        return true;
     }
 
     void read_text_face(std::size_t f) {
@@ -208,7 +217,7 @@ class OffReader {
                            grouped(vertices_) + " vertices, counted from 0; export the file again");
             mesh_.corners.push_back(static_cast<std::uint32_t>(index));
         }
-        mesh_.face_begin.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
+        close_face(mesh_);
         if (!text_.at_line_end())
             read_text_color(text_.tokens_on_line(), f, face_colors_);
     }
@@ -284,7 +293,7 @@ class OffReader {
                            grouped(vertices_) + " vertices, counted from 0; export the file again");
             mesh_.corners.push_back(static_cast<std::uint32_t>(index));
         }
-        mesh_.face_begin.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
+        close_face(mesh_);
         const auto components = bytes.read<std::int32_t>("the number of colour components of a face");
         if (components != 0)
             read_binary_color(bytes, components, f, face_colors_);
@@ -311,6 +320,11 @@ class OffReader {
     ColorList vertex_colors_, face_colors_;
 };
 
+}
+
+bool begins_as_off(const FileBytes& file) {
+    TextScanner text(file, file.begin(), off_syntax);
+    return !text.at_end() && layout_named(text.peek());
 }
 
 Mesh read_off(const FileBytes& file) {

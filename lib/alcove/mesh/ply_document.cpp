@@ -189,6 +189,11 @@ const PlyElement* PlyDocument::find(std::string_view element) const {
     return found == elements.end() ? nullptr : &*found;
 }
 
+bool PlyDocument::has_vertex_property(std::string_view name) const {
+    const PlyElement* vertices = find("vertex");
+    return vertices != nullptr && vertices->find(name) != nullptr;
+}
+
 PlyDocument make_ply_document(const Mesh& mesh) {
     PlyDocument document;
     document.elements.push_back(vertex_element(mesh));

@@ -7,7 +7,8 @@ namespace alcove {
 namespace {
 
 constexpr std::size_t longest_line = 65536;
-constexpr std::size_t most_names = 4096; // elements, and properties of one element: looking for doubles is quadratic
+constexpr std::size_t most_names =
+    4096; // elements, and properties of one element: looking for doubles is quadratic
 
 std::string_view without_blanks_around(std::string_view text) {
     constexpr std::string_view blanks = " \t\r\v\f";
@@ -54,7 +55,8 @@ class HeaderParser {
     [[noreturn]] void fail(const std::string& message) const { file_.fail_at_line(line_.data(), message); }
 
     void next_line() {
-        const char* const limit = std::min(file_.end(), at_ + std::min<std::ptrdiff_t>(longest_line, file_.end() - at_));
+        const char* const limit =
+            std::min(file_.end(), at_ + std::min<std::ptrdiff_t>(longest_line, file_.end() - at_));
         const char* const end = std::find(at_, limit, line_end_);
         line_ = {at_, static_cast<std::size_t>(end - at_)};
         if (end == limit && end != file_.end())
@@ -70,7 +72,7 @@ class HeaderParser {
         if (words.empty())
             return;
         if (words[0] == "comment" || words[0] == "obj_info")
-            header_.document.comments.emplace_back(without_blanks_around(line_));
+            header_.document.comments.emplace_back(line_.substr(0, line_.find_last_not_of('\r') + 1));
         else if (words[0] == "format")
             parse_format(words);
         else if (words[0] == "element")
@@ -78,7 +80,8 @@ class HeaderParser {
         else if (words[0] == "property")
             parse_property(words);
         else
-            fail(quoted(words[0]) + " is no keyword of a PLY header; is the header damaged or end_header missing?");
+            fail(in_quotes(words[0]) +
+                 " is no keyword of a PLY header; is the header damaged or end_header missing?");
     }
 
     void parse_format(const std::vector<std::string_view>& words) {
@@ -94,7 +97,8 @@ class HeaderParser {
         else if (words[1] == "binary_big_endian")
             header_.format = PlyFormat::big_endian;
         else
-            fail(quoted(words[1]) + " is no PLY format; ascii, binary_little_endian and binary_big_endian are");
+            fail(in_quotes(words[1]) +
+                 " is no PLY format; ascii, binary_little_endian and binary_big_endian are");
     }
 
     void parse_element(const std::vector<std::string_view>& words) {
@@ -104,10 +108,10 @@ class HeaderParser {
         const char* const last = words[2].data() + words[2].size();
         const auto [end, error] = std::from_chars(words[2].data(), last, count);
         if (error != std::errc() || end != last)
-            fail(quoted(words[2]) + " is not a number of elements; export the file again");
+            fail(in_quotes(words[2]) + " is not a number of elements; export the file again");
         std::vector<PlyElement>& elements = header_.document.elements;
         if (header_.document.find(words[1]) != nullptr)
-            fail("a second element " + quoted(words[1]) + "; remove one");
+            fail("a second element " + in_quotes(words[1]) + "; remove one");
         if (elements.size() == most_names)
             fail("more than " + grouped(most_names) + " elements; export fewer");
         elements.push_back({std::string(words[1]), count, {}, {}});
@@ -124,10 +128,10 @@ class HeaderParser {
         if (is_list) {
             property.count_type = type_named(words[2]);
             if (!is_integral(*property.count_type))
-                fail("a list cannot be counted in " + quoted(words[2]) + "; export the file again");
+                fail("a list cannot be counted in " + in_quotes(words[2]) + "; export the file again");
         }
         if (element.find(property.name) != nullptr)
-            fail("a second property " + quoted(property.name) + " of element " + quoted(element.name) +
+            fail("a second property " + in_quotes(property.name) + " of element " + in_quotes(element.name) +
                  "; remove one");
         if (element.properties.size() == most_names)
             fail("more than " + grouped(most_names) + " properties in an element; export fewer");
@@ -137,7 +141,8 @@ class HeaderParser {
     PlyType type_named(std::string_view name) const {
         const auto type = ply_type_named(name);
         if (!type)
-            fail(quoted(name) + " is no PLY type; char, uchar, short, ushort, int, uint, float and double are");
+            fail(in_quotes(name) +
+                 " is no PLY type; char, uchar, short, ushort, int, uint, float and double are");
         return *type;
     }
 
@@ -151,6 +156,8 @@ class HeaderParser {
 
 }
 
-PlyHeader parse_ply_header(const FileBytes& file) { return HeaderParser(file).parse(); }
+PlyHeader parse_ply_header(const FileBytes& file) {
+    return HeaderParser(file).parse();
+}
 
 }

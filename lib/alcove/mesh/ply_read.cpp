@@ -1,4 +1,3 @@
-#include "alcove/errors.h"
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/ply_parse.h"
 
@@ -55,15 +54,32 @@ std::optional<std::array<const PlyProperty*, N>> find_all(const PlyElement& elem
     return properties;
 }
 
-void read_positions(const FileBytes& file, const PlyElement& vertices, Mesh& mesh) {
+/// The list of vertex indices; null if there is none.
+const PlyProperty* corner_list(const PlyElement& faces) {
+    const PlyProperty* list = faces.find("vertex_indices");
+    if (list == nullptr)
+        list = faces.find("vertex_index");
+    return list != nullptr && list->count_type && is_integral(list->type) ? list : nullptr;
+}
+
+void check_header(const FileBytes& file, const PlyHeader& header) {
+    const auto fail = [&](const std::string& message) { file.fail_at_line(header.body - 1, message); };
+    const PlyElement* vertices = header.document.find("vertex");
+    const PlyElement* faces = header.document.find("face");
+    if (vertices == nullptr)
+        fail("the header names no element 'vertex'; export the file again");
     for (const std::string_view name : {"x", "y", "z"}) {
-        const PlyProperty* property = vertices.find(name);
+        const PlyProperty* property = vertices->find(name);
         if (property == nullptr)
-            file.fail("header: the vertices have no property " + quoted(name) + "; export the file again");
+            fail("the header gives the vertices no property " + in_quotes(name) + "; export the file again");
         if (property->count_type)
-            file.fail("header: property " + quoted(name) + " is a list, one number is needed; export the file again");
+            fail("the header makes " + in_quotes(name) +
+                 " a list where one number is needed; export the file again");
     }
-    read_components(vertices, *find_all<3>(vertices, {"x", "y", "z"}), mesh.positions);
+    if (faces == nullptr && header.document.find("tristrips") != nullptr)
+        fail("the header stores the surface as triangle strips; export it with faces");
+    if (faces != nullptr && faces->count > 0 && corner_list(*faces) == nullptr)
+        fail("the header gives the faces no list of whole numbers 'vertex_indices'; export the file again");
 }
 
 void read_normals(const PlyElement& vertices, Mesh& mesh) {
@@ -108,12 +124,10 @@ void read_colors(const PlyElement& element, std::vector<Color>& colors) {
         read_component(*alpha, 3);
 }
 
-void read_faces(const FileBytes& file, const PlyElement& faces, Mesh& mesh) {
-    const PlyProperty* list = faces.find("vertex_indices");
+void read_faces(const FileBytes& file, const PlyHeader& header, const PlyElement& faces, Mesh& mesh) {
+    const PlyProperty* list = corner_list(faces);
     if (list == nullptr)
-        list = faces.find("vertex_index");
-    if (list == nullptr || !list->count_type || !is_integral(list->type))
-        file.fail("header: the faces have no list of whole numbers 'vertex_indices'; export the file again");
+        return;
     mesh.face_begin.reserve(faces.count + 1);
     mesh.corners.reserve(faces.rows.size() / (size_of(list->type) + 1));
     const std::size_t size = size_of(list->type);
@@ -124,9 +138,10 @@ void read_faces(const FileBytes& file, const PlyElement& faces, Mesh& mesh) {
         for (std::int64_t c = 0; c < corners; ++c, bytes += size) {
             const std::int64_t index = integer_at(bytes, list->type);
             if (index < 0 || index >= vertices)
-                file.fail("face " + grouped(row) + ": vertex index " + std::to_string(index) +
-                          " is out of range: there are " + grouped(mesh.vertex_count()) +
-                          " vertices, counted from 0; export the file again");
+                fail_in_row(file, header, faces, row, static_cast<std::size_t>(bytes - faces.rows.data()),
+                            "vertex index " + std::to_string(index) + " is out of range: there are " +
+                                grouped(mesh.vertex_count()) +
+                                " vertices, counted from 0; export the file again");
             mesh.corners.push_back(static_cast<std::uint32_t>(index));
         }
         close_face(mesh);
@@ -159,24 +174,27 @@ void read_corner_uvs(const PlyElement& faces, Mesh& mesh) {
 
 }
 
+bool begins_as_ply(const FileBytes& file) {
+    const std::string_view bytes = file.view();
+    return bytes.starts_with("ply") &&
+           (bytes.size() == 3 || bytes.substr(3, 1).find_first_of(" \t\r\n") == 0);
+}
+
 Mesh read_ply(const FileBytes& file) {
     PlyHeader header = parse_ply_header(file);
+    check_header(file, header);
     const PlyElement* vertices = header.document.find("vertex");
     const PlyElement* faces = header.document.find("face");
-    if (vertices == nullptr)
-        file.fail("header: there is no element 'vertex'; export the file again");
-    if (faces == nullptr && header.document.find("tristrips") != nullptr)
-        file.fail("header: the surface is stored as triangle strips; export it with faces");
 
     Mesh mesh;
     if (const std::size_t left = parse_ply_rows(file, header); left > 0)
         mesh.warnings.push_back(grouped(left) + " bytes behind the last row were not read");
-    read_positions(file, *vertices, mesh);
+    read_components(*vertices, *find_all<3>(*vertices, {"x", "y", "z"}), mesh.positions);
     read_normals(*vertices, mesh);
     read_vertex_uvs(*vertices, mesh);
     read_colors(*vertices, mesh.vertex_colors);
     if (faces != nullptr) {
-        read_faces(file, *faces, mesh);
+        read_faces(file, header, *faces, mesh);
         read_corner_uvs(*faces, mesh);
         read_colors(*faces, mesh.face_colors);
     }

@@ -37,8 +37,9 @@ class TextRows {
         if (width == 0)
             return;
         // A value takes a digit and a separator; behind the last one of the file that may be missing.
+        text_.at_end();
         if (element.count > (text_.bytes_left() + 1) / (2 * width))
-            text_.fail(grouped(element.count) + " rows of element " + quoted(element.name) +
+            text_.fail(grouped(element.count) + " rows of element " + in_quotes(element.name) +
                        " are announced but only " + grouped(text_.bytes_left()) +
                        " bytes follow; copy or export the file again");
         RowBuffer rows(element.rows, element.count * element.smallest_row());
@@ -49,12 +50,13 @@ class TextRows {
                 else
                     read_value(property.type, property.name.c_str(), rows.extend(size_of(property.type)));
             if (!text_.at_line_end())
-                text_.fail("more values on the line than element " + quoted(element.name) +
+                text_.fail("more values on the line than element " + in_quotes(element.name) +
                            " has properties; export the file again");
         }
         rows.finish();
     }
 
+    const char* at() const { return text_.at(); }
     std::size_t bytes_left() { return text_.at_end() ? 0 : text_.bytes_left(); }
 
   private:
@@ -63,7 +65,7 @@ class TextRows {
         read_value(*property.count_type, property.name.c_str(), at);
         const std::int64_t items = integer_at(at, *property.count_type);
         if (items < 0 || static_cast<std::size_t>(items) > (text_.bytes_left() + 1) / 2)
-            text_.fail("a list " + quoted(property.name) + " of " + std::to_string(items) +
+            text_.fail("a list " + in_quotes(property.name) + " of " + std::to_string(items) +
                        " items does not fit the rest of the file; copy or export it again");
         const std::size_t size = size_of(property.type);
         std::byte* to = rows.extend(static_cast<std::size_t>(items) * size);
@@ -112,15 +114,17 @@ class TextRows {
 
 class BinaryRows {
   public:
-    BinaryRows(const FileBytes& file, const char* body, bool swapped) : file_(file), at_(body), swapped_(swapped) {}
+    BinaryRows(const FileBytes& file, const char* body, bool swapped)
+        : file_(file), at_(body), swapped_(swapped) {}
 
     void read(PlyElement& element) {
         if (element.properties.empty())
             return;
         const std::size_t smallest = element.smallest_row();
         if (element.count > bytes_left() / smallest)
-            file_.fail_at_byte(at_, grouped(element.count) + " rows of element " + quoted(element.name) + " take at least " +
-                                        grouped(smallest) + " bytes each but only " + grouped(bytes_left()) +
+            file_.fail_at_byte(at_, grouped(element.count) + " rows of element " + in_quotes(element.name) +
+                                        " take at least " + grouped(smallest) + " bytes each but only " +
+                                        grouped(bytes_left()) +
                                         " bytes follow; copy or export the file again");
         const char* const end = element.has_lists() ? end_of_rows(element) : at_ + element.count * smallest;
         const auto* const bytes = reinterpret_cast<const std::byte*>(at_);
@@ -130,6 +134,7 @@ class BinaryRows {
             swap_rows(element);
     }
 
+    const char* at() const { return at_; }
     std::size_t bytes_left() const { return static_cast<std::size_t>(file_.end() - at_); }
 
   private:
@@ -139,14 +144,16 @@ class BinaryRows {
             for (const PlyProperty& property : element.properties) {
                 const std::size_t head = size_of(property.count_type.value_or(property.type));
                 if (static_cast<std::size_t>(file_.end() - at) < head)
-                    file_.fail_at_byte(file_.end(), "the file ends early: row " + grouped(row) + " of element " +
-                                                        quoted(element.name) + " is cut; copy or export it again");
+                    file_.fail_at_byte(file_.end(), "the file ends early: row " + grouped(row) +
+                                                        " of element " + in_quotes(element.name) +
+                                                        " is cut; copy or export it again");
                 if (property.count_type) {
                     const std::int64_t items = count_at(at, *property.count_type);
                     const std::size_t left = static_cast<std::size_t>(file_.end() - at) - head;
                     if (items < 0 || static_cast<std::size_t>(items) > left / size_of(property.type))
-                        file_.fail_at_byte(at, "a list " + quoted(property.name) + " of " + std::to_string(items) +
-                                                   " items does not fit the rest of the file; copy or export it again");
+                        file_.fail_at_byte(
+                            at, "a list " + in_quotes(property.name) + " of " + std::to_string(items) +
+                                    " items does not fit the rest of the file; copy or export it again");
                     at += static_cast<std::size_t>(items) * size_of(property.type);
                 }
                 at += head;
@@ -186,9 +193,11 @@ class BinaryRows {
     bool swapped_;
 };
 
-std::size_t read_all(auto rows, PlyDocument& document) {
-    for (PlyElement& element : document.elements)
+std::size_t read_all(auto rows, PlyHeader& header) {
+    for (PlyElement& element : header.document.elements) {
+        header.element_begin.push_back(rows.at());
         rows.read(element);
+    }
     return rows.bytes_left();
 }
 
@@ -196,8 +205,20 @@ std::size_t read_all(auto rows, PlyDocument& document) {
 
 std::size_t parse_ply_rows(const FileBytes& file, PlyHeader& header) {
     if (header.format == PlyFormat::ascii)
-        return read_all(TextRows(file, header.body), header.document);
-    return read_all(BinaryRows(file, header.body, header.format == PlyFormat::big_endian), header.document);
+        return read_all(TextRows(file, header.body), header);
+    return read_all(BinaryRows(file, header.body, header.format == PlyFormat::big_endian), header);
+}
+
+void fail_in_row(const FileBytes& file, const PlyHeader& header, const PlyElement& element, std::size_t row,
+                 std::size_t offset, const std::string& message) {
+    const auto number = static_cast<std::size_t>(&element - header.document.elements.data());
+    if (header.format != PlyFormat::ascii)
+        file.fail_at_byte(header.element_begin[number] + offset, message);
+    TextScanner text(file, header.element_begin[number]);
+    for (; row > 0 && !text.at_end(); --row)
+        text.next_line();
+    text.at_end();
+    text.fail(message);
 }
 
 }

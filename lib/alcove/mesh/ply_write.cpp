@@ -165,9 +165,13 @@ std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path
         made = make_ply_document(mesh);
         document = &made;
     }
-    if (const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get()))
-        for (const std::string& line : text->other_lines())
-            lost.push_back("not stored in PLY: " + line);
+    if (const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get())) {
+        for (const auto& [what, count] : text->other_lines)
+            lost.push_back("not stored in PLY: " + grouped(count) + " " + what);
+        if (text->weights > 0)
+            lost.push_back("not stored in PLY: the weights of " +
+                           counted(text->weights, "vertex", "vertices"));
+    }
 
     const std::vector<Column> columns = added_columns(mesh, options);
     const std::vector<Column> no_columns;

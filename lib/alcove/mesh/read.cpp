@@ -1,39 +1,86 @@
 #include "alcove/mesh/read.h"
 
+#include "alcove/errors.h"
 #include "alcove/mesh/formats.h"
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
+#include <new>
 
 namespace alcove {
 namespace {
 
-enum class Format { ply, obj, off, stl, unknown };
+using Reader = Mesh (*)(const FileBytes&);
 
-Format format_of(const FileBytes& file) {
+Reader reader_of(const FileBytes& file) {
+    if (begins_as_ply(file))
+        return read_ply;
+    if (begins_as_off(file))
+        return read_off;
+    if (begins_as_stl(file))
+        return read_stl;
     std::string extension = file.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".off")
-        return Format::off;
     if (extension == ".ply")
-        return Format::ply;
-    return Format::unknown;
+        return read_ply;
+    if (extension == ".off")
+        return read_off;
+    if (extension == ".stl")
+        return read_stl;
+    if (extension == ".obj" || begins_as_obj(file))
+        return read_obj;
+    file.fail("is no mesh of a known format; PLY, OBJ, OFF and STL can be read");
+}
+
+void warn_of_odd_geometry(Mesh& mesh) {
+    const auto non_finite = std::count_if(mesh.positions.begin(), mesh.positions.end(),
+                                          [](const Vec3d& p) { return !is_finite(p); });
+    if (non_finite > 0)
+        mesh.warnings.push_back(
+            counted(static_cast<std::size_t>(non_finite), "vertex has", "vertices have") +
+            " coordinates that are not finite numbers; kept, but no surface is built on them");
+    std::size_t degenerate = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        degenerate += mesh.face(f).size() < 3;
+    if (degenerate > 0)
+        mesh.warnings.push_back(counted(degenerate, "face has", "faces have") +
+                                " fewer than three corners; kept, but no surface is built on them");
+}
+
+Mesh read_checked(const std::filesystem::path& path) {
+    const FileBytes file(path);
+    Mesh mesh = reader_of(file)(file);
+    if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
+        throw LimitError(path.string() + ": more than 2^32 vertices; split the mesh");
+    if (mesh.face_count() == 0)
+        file.fail("holds " + counted(mesh.vertex_count(), "point", "points") +
+                  " but no faces; a surface is needed: reconstruct one first");
+    warn_of_odd_geometry(mesh);
+    return mesh;
 }
 
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {
-    const FileBytes file(path);
-    Mesh mesh;
-    switch (format_of(file)) {
-    case Format::off:
-        mesh = read_off(file);
-        break;
-    default:
-        file.fail("is no mesh file of a known format; PLY, OBJ, OFF and STL can be read");
+    try {
+        return read_checked(path);
+    } catch (const std::bad_alloc&) {
+        throw LimitError(path.string() + ": does not fit in memory; simplify or split the mesh");
     }
-    return mesh;
+}
+
+void close_face(Mesh& mesh) {
+    if (mesh.corners.size() > std::numeric_limits<std::uint32_t>::max())
+        throw LimitError("more than 2^32 face corners; split the mesh");
+    mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+}
+
+Vec3 unit_or_zero(const Vec3d& n) {
+    const double length = glm::length(n);
+    return std::isfinite(length) && length > 0.0 ? Vec3(n / length) : Vec3(0.0f);
 }
 
 }

@@ -1,6 +1,8 @@
 /// What a file held beyond the Mesh itself, kept so that writing the same format again gives it back.
 #pragma once
 
+#include <string_view>
+
 namespace alcove {
 
 /// Base of PlyDocument and ObjDocument. Belongs to the vertices and faces it was read with: code that moves,
@@ -8,6 +10,8 @@ namespace alcove {
 class SourceDocument {
   public:
     virtual ~SourceDocument() = default;
+    /// Whether each vertex came with a value of that name ("quality", "red", ...) that writing gives back.
+    virtual bool has_vertex_property(std::string_view) const { return false; }
 
   protected:
     SourceDocument() = default;

@@ -10,27 +10,38 @@
 
 namespace alcove {
 
-/// Walks a text from token to token. Tokens are separated by blanks and line ends (LF, CRLF, CR); where a
-/// comment character is given, it and the rest of its line count as a line end.
+struct TextSyntax {
+    char comment = '\0';       ///< it and the rest of its line count as a line end
+    bool continuation = false; ///< a backslash at the end of a line joins the next one to it
+};
+inline constexpr TextSyntax off_syntax{'#', false};
+inline constexpr TextSyntax obj_syntax{'#', true};
+
+/// Walks a text from token to token. Tokens are separated by blanks and line ends (LF, CRLF, CR).
 class TextScanner {
   public:
-    TextScanner(const FileBytes& file, const char* begin, char comment = '\0')
-        : file_(file), at_(begin), end_(file.end()), comment_(comment) {}
+    TextScanner(const FileBytes& file, const char* begin, TextSyntax syntax = {})
+        : file_(file), at_(begin), end_(file.end()), syntax_(syntax) {}
 
     const char* at() const { return at_; }
-    const char* end() const { return end_; }
+    void move_to(const char* place) { at_ = place; }
+    bool at_token_end() const { return at_ == end_ || is_delimiter(at_); }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
     /// Skips blanks; true at a line end, a comment or the end of the file.
     bool at_line_end() {
-        while (at_ < end_ && is_blank(*at_))
-            ++at_;
-        return at_ == end_ || is_line_end(*at_) || (comment_ != '\0' && *at_ == comment_);
+        while (at_ < end_ && (is_blank(*at_) || is_continuation(at_)))
+            at_ += is_blank(*at_) ? 1 : continuation_length(at_);
+        return at_ == end_ || is_line_end(*at_) || is_comment(*at_);
     }
     /// Moves behind the end of this line.
     void next_line() {
-        while (at_ < end_ && !is_line_end(*at_))
-            ++at_;
+        bool in_comment = false;
+        for (; at_ < end_ && !is_line_end(*at_); ++at_) {
+            in_comment |= is_comment(*at_);
+            if (!in_comment && is_continuation(at_))
+                at_ += continuation_length(at_) - 1;
+        }
         const bool carriage_return = at_ < end_ && *at_ == '\r';
         if (at_ < end_)
             ++at_;
@@ -51,7 +62,7 @@ class TextScanner {
         if (at_line_end())
             return {};
         const char* last = at_;
-        while (last < end_ && !is_delimiter(*last))
+        while (last < end_ && !is_delimiter(last))
             ++last;
         return {at_, static_cast<std::size_t>(last - at_)};
     }
@@ -80,7 +91,7 @@ class TextScanner {
         Real value{};
         const char* first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
         const auto [last, error] = fast_float::from_chars(first, end_, value);
-        if (error == std::errc::invalid_argument || (last < end_ && !is_delimiter(*last)))
+        if (error == std::errc::invalid_argument || (last < end_ && !is_delimiter(last)))
             fail_token("a number", expected);
         at_ = last;
         return value;
@@ -98,7 +109,7 @@ class TextScanner {
         for (; digit < end_ && *digit >= '0' && *digit <= '9'; ++digit)
             if (digit - first < longest_integer)
                 value = value * 10 + (*digit - '0');
-        if (digit == first || digit - first > longest_integer || (digit < end_ && !is_delimiter(*digit)))
+        if (digit == first || digit - first > longest_integer || (digit < end_ && !is_delimiter(digit)))
             fail_token("a whole number", expected);
         at_ = digit;
         return negative ? -value : value;
@@ -115,18 +126,25 @@ class TextScanner {
 
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-    bool is_delimiter(char c) const {
-        return is_blank(c) || is_line_end(c) || (comment_ != '\0' && c == comment_);
+    bool is_comment(char c) const { return syntax_.comment != '\0' && c == syntax_.comment; }
+    bool is_continuation(const char* at) const {
+        return *at == '\\' && syntax_.continuation && at + 1 < end_ && is_line_end(at[1]);
+    }
+    static std::ptrdiff_t continuation_length(const char* at) {
+        return at[1] == '\r' && at[2] == '\n' ? 3 : 2;
+    }
+    bool is_delimiter(const char* at) const {
+        return is_blank(*at) || is_line_end(*at) || is_comment(*at) || is_continuation(at);
     }
     [[noreturn]] void fail_token(const char* kind, const char* expected) {
         const std::string_view token = peek();
-        fail(quoted(token) + " is not " + kind + "; " + expected + " is expected here");
+        fail(in_quotes(token) + " is not " + kind + "; " + expected + " is expected here");
     }
 
     const FileBytes& file_;
     const char* at_;
     const char* end_;
-    char comment_;
+    TextSyntax syntax_;
 };
 
 }

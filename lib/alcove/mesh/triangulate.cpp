@@ -225,7 +225,8 @@ Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t b
 
 Triangulation triangulate(const Mesh& mesh) {
     const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
-    constexpr std::size_t grain = 1 << 14;
+    // Blocks of about as many corners, so that a few huge polygons are shared too.
+    const std::size_t grain = 1 + (mesh.face_count() << 15) / (mesh.corners.size() + 1);
     std::vector<Triangulation> parts((mesh.face_count() + grain - 1) / grain);
     parallel_for(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {
         parts[begin / grain] = triangulate_range(mesh, all_finite, begin, end);
