@@ -106,6 +106,7 @@ void Band::evaluate(const MaskTree& targets, BandWidth width, MaskTree& accepted
                     found[l].push_back({no_triangle, 0.0f});
                     continue;
                 }
+                best = static_cast<int>(surface_->descend(static_cast<std::size_t>(best), p));
                 const ClosestPoint point = surface_->closest(static_cast<std::size_t>(best), p);
                 const auto distance = static_cast<float>(std::sqrt(point.distance2) / stride_);
                 found[l].push_back({best, point.side < 0.0 ? -distance : distance});
@@ -150,7 +151,6 @@ void Band::grow(BandWidth width) {
     }
     // Once more over all of it: neighbours found later may know a nearer triangle.
     MaskTree all(*distance_, false, openvdb::TopologyCopy());
-    frontier.clear();
     evaluate(all, {2.0f * width.outer, 2.0f * width.inner}, frontier);
 }
 

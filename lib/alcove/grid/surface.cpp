@@ -5,24 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace alcove {
 namespace {
 
 constexpr int face_feature = 6;
 
-double corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
+float corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
     const Vec3d u = b - at, v = c - at;
-    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+    return static_cast<float>(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
 }
 
-Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame, double voxel) {
+Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame, const Vec3d& origin,
+                 double voxel) {
     positions_.resize(mesh.positions.size());
     parallel_for(positions_.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
-            positions_[v] = (mesh.positions[v] - frame.center) / frame.diagonal / voxel;
+            positions_[v] = ((mesh.positions[v] - frame.center) / frame.diagonal - origin) / voxel;
     });
     triangles_.reserve(triangles.size());
     face_normals_.reserve(triangles.size());
@@ -33,11 +35,26 @@ Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Fr
             face_normals_.emplace_back(cross / length);
         }
     }
-    weight_normals(weld(mesh.positions));
+    joined_ = weld(mesh.positions);
+    weight_normals();
+    collect_rings();
 }
 
-void Surface::weight_normals(std::span<const std::uint32_t> joined) {
-    std::vector<Vec3d> vertex_sum(positions_.size(), Vec3d(0.0));
+void Surface::collect_rings() {
+    ring_begin_.assign(positions_.size() + 1, 0);
+    for (const Triangle& t : triangles_)
+        for (const std::uint32_t v : t)
+            ++ring_begin_[joined_[v] + 1];
+    std::partial_sum(ring_begin_.begin(), ring_begin_.end(), ring_begin_.begin());
+    ring_.resize(3 * triangles_.size());
+    std::vector<std::uint32_t> next(ring_begin_.begin(), ring_begin_.end() - 1);
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+        for (const std::uint32_t v : triangles_[t])
+            ring_[next[joined_[v]]++] = t;
+}
+
+void Surface::weight_normals() {
+    vertex_normals_.assign(positions_.size(), Vec3(0.0f));
     struct HalfEdge {
         std::uint64_t key;
         std::uint32_t slot;
@@ -47,9 +64,8 @@ void Surface::weight_normals(std::span<const std::uint32_t> joined) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const Triangle& tri = triangles_[t];
             const std::uint32_t at = tri[k], next = tri[(k + 1) % 3], last = tri[(k + 2) % 3];
-            vertex_sum[joined[at]] += corner_angle(positions_[at], positions_[next], positions_[last]) *
-                                      Vec3d(face_normals_[t]);
-            const auto [low, high] = std::minmax(joined[at], joined[next]);
+            vertex_normals_[joined_[at]] += corner_angle(positions_[at], positions_[next], positions_[last]) * face_normals_[t];
+            const auto [low, high] = std::minmax(joined_[at], joined_[next]);
             const auto slot = static_cast<std::uint32_t>(3 * t + k);
             half_edges[slot] = {(std::uint64_t{low} << 32) | high, slot};
         }
@@ -58,16 +74,21 @@ void Surface::weight_normals(std::span<const std::uint32_t> joined) {
     });
 
     edge_normals_.resize(half_edges.size());
+    std::vector<std::uint32_t> rim;
     for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
         Vec3 sum(0.0f);
         for (end = begin; end < half_edges.size() && half_edges[end].key == half_edges[begin].key; ++end)
             sum += face_normals_[half_edges[end].slot / 3];
+        if (end == begin + 1) {
+            sum = Vec3(0.0f);
+            rim.push_back(static_cast<std::uint32_t>(half_edges[begin].key >> 32));
+            rim.push_back(static_cast<std::uint32_t>(half_edges[begin].key));
+        }
         for (std::size_t i = begin; i < end; ++i)
             edge_normals_[half_edges[i].slot] = sum;
     }
-    vertex_normals_.resize(half_edges.size());
-    for (std::size_t slot = 0; slot < vertex_normals_.size(); ++slot)
-        vertex_normals_[slot] = Vec3(vertex_sum[joined[triangles_[slot / 3][slot % 3]]]);
+    for (const std::uint32_t v : rim)
+        vertex_normals_[v] = Vec3(0.0f);
 }
 
 Surface::Nearest Surface::nearest(std::size_t triangle, const Vec3d& p) const {
@@ -97,6 +118,31 @@ Surface::Nearest Surface::nearest(std::size_t triangle, const Vec3d& p) const {
     return {ap - vb * scale * ab - vc * scale * ac, face_feature};
 }
 
+std::size_t Surface::descend(std::size_t triangle, const Vec3d& p) const {
+    double best2 = distance2(triangle, p);
+    for (;;) {
+        int corner = 0;
+        double corner2 = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < 3; ++k) {
+            const Vec3d way = p - vertex(triangle, k);
+            if (const double d2 = glm::dot(way, way); d2 < corner2) {
+                corner2 = d2;
+                corner = k;
+            }
+        }
+        const std::uint32_t centre = joined_[triangles_[triangle][static_cast<std::size_t>(corner)]];
+        std::size_t nearest = triangle;
+        for (std::uint32_t i = ring_begin_[centre]; i < ring_begin_[centre + 1]; ++i)
+            if (const double d2 = distance2(ring_[i], p); d2 < best2) {
+                best2 = d2;
+                nearest = ring_[i];
+            }
+        if (nearest == triangle)
+            return triangle;
+        triangle = nearest;
+    }
+}
+
 double Surface::distance2(std::size_t triangle, const Vec3d& p) const {
     const Vec3d offset = nearest(triangle, p).offset;
     return glm::dot(offset, offset);
@@ -104,10 +150,10 @@ double Surface::distance2(std::size_t triangle, const Vec3d& p) const {
 
 ClosestPoint Surface::closest(std::size_t triangle, const Vec3d& p) const {
     const auto [offset, feature] = nearest(triangle, p);
-    const std::size_t slot = 3 * triangle + static_cast<std::size_t>(feature) % 3;
+    const auto corner = static_cast<std::size_t>(feature) % 3;
     const Vec3 normal = feature == face_feature ? face_normals_[triangle]
-                        : feature < 3           ? vertex_normals_[slot]
-                                                : edge_normals_[slot];
+                        : feature < 3           ? vertex_normals_[joined_[triangles_[triangle][corner]]]
+                                                : edge_normals_[3 * triangle + corner];
     return {glm::dot(offset, offset), glm::dot(offset, Vec3d(normal))};
 }
 

@@ -1,0 +1,192 @@
+#include "alcove/grid/grid_io.h"
+
+#include "alcove/errors.h"
+#include "alcove/grid/vdb.h"
+#include "alcove/mesh/atomic_file.h"
+#include "alcove/parallel.h"
+
+#include <fmt/format.h>
+#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+
+namespace alcove {
+namespace {
+
+using openvdb::FloatGrid;
+namespace io = openvdb::io;
+
+constexpr const char* creator = "Alcove";
+
+std::string level_name(std::size_t level) {
+    return level == 0 ? "surface" : fmt::format("surface_{}", level + 1);
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+    throw InputError(fmt::format("{}: {}", file.string(), what));
+}
+
+/// All float grids of the file; the stream's own state tells a truncated file, which OpenVDB does not.
+std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(file))
+        throw IoError(fmt::format("{}: cannot be opened for reading", file.string()));
+    std::vector<FloatGrid::Ptr> grids;
+    try {
+        openvdb::initialize();
+        io::Stream archive(stream, /*delayLoad=*/false);
+        for (const openvdb::GridBase::Ptr& grid : *archive.getGrids())
+            if (auto floats = openvdb::gridPtrCast<FloatGrid>(grid))
+                grids.push_back(std::move(floats));
+    } catch (const std::exception& error) {
+        // What OpenVDB says may hold any bytes of the file: keep a readable start of it.
+        std::string reason = error.what();
+        reason.resize(std::min<std::size_t>(reason.size(), 100));
+        std::replace_if(reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+        refuse(file, fmt::format("is no readable .vdb file ({}): write it again", reason));
+    }
+    if (!stream)
+        refuse(file, "ends early: the file is truncated, write it again");
+    return grids;
+}
+
+/// Every value finite, and as many as were written.
+void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
+    const auto expected = grid.getMetadata<openvdb::Int64Metadata>("file_voxel_count");
+    if (expected && static_cast<openvdb::Index64>(expected->value()) != grid.activeVoxelCount())
+        refuse(file, fmt::format("grid '{}' holds {} active voxels but announces {}: the file is damaged",
+                                 grid.getName(), grid.activeVoxelCount(), expected->value()));
+    std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
+    grid.tree().getNodes(leaves);
+    std::atomic<std::size_t> bad{std::isfinite(grid.background()) ? 0u : 1u};
+    parallel_for(leaves.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t l = begin; l < end; ++l)
+            for (auto value = leaves[l]->cbeginValueAll(); value; ++value)
+                if (!std::isfinite(*value))
+                    ++bad;
+    });
+    if (bad > 0)
+        refuse(file, fmt::format("grid '{}' holds {} values that are not finite numbers: the file is damaged",
+                                 grid.getName(), bad.load()));
+}
+
+LevelSet level_of(const FloatGrid::Ptr& grid, const Frame& frame, const std::filesystem::path& file) {
+    const auto& transform = grid->transform();
+    const auto map = transform.baseMap()->getAffineMap()->getMat4();
+    const double size = map(0, 0);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            if (std::fabs(map(row, column) - (row == column ? size : 0.0)) > 1e-6 * std::fabs(size) || !(size > 0.0))
+                refuse(file, fmt::format("grid '{}' has voxels that are no cubes along the axes: resample it to a "
+                                         "uniform, unrotated transform",
+                                         grid->getName()));
+    LevelSet level;
+    level.voxel = static_cast<float>(size / frame.diagonal);
+    const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
+    level.origin = frame.to_unit({origin.x(), origin.y(), origin.z()});
+    level.outer_band = static_cast<float>(grid->background() / size);
+    level.active_voxels = grid->activeVoxelCount();
+    level.bytes = grid->memUsage();
+    level.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
+    return level;
+}
+
+double number(const FloatGrid& grid, const char* name) {
+    const auto meta = grid.getMetadata<openvdb::DoubleMetadata>(name);
+    return meta ? meta->value() : std::nan("");
+}
+
+bool is_ours(const FloatGrid& grid) {
+    return grid.getCreator() == creator && number(grid, "alcove:diagonal") > 0.0;
+}
+
+GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
+    GridStack stack;
+    const FloatGrid& finest = *grids.front();
+    stack.frame.center = {number(finest, "alcove:center_x"), number(finest, "alcove:center_y"),
+                          number(finest, "alcove:center_z")};
+    stack.frame.diagonal = number(finest, "alcove:diagonal");
+    const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
+    stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
+    for (const FloatGrid::Ptr& grid : grids) {
+        LevelSet level = level_of(grid, stack.frame, file);
+        level.voxel = static_cast<float>(number(*grid, "alcove:voxel"));
+        level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
+        if (!(level.voxel > 0.0f) || !(level.outer_band >= 3.0f))
+            refuse(file, fmt::format("grid '{}' has lost its alcove metadata: write it again", grid->getName()));
+        stack.levels.push_back(std::move(level));
+    }
+    return stack;
+}
+
+GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
+    auto chosen = std::find_if(grids.begin(), grids.end(),
+                               [](const auto& g) { return g->getGridClass() == openvdb::GRID_LEVEL_SET; });
+    if (chosen == grids.end())
+        chosen = std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
+    if (chosen == grids.end() || !((*chosen)->background() > 0.0f) || (*chosen)->activeVoxelCount() == 0)
+        refuse(file, "holds no level set of floats: alcove needs signed distances, positive outside");
+    const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
+    const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
+    Box box;
+    box.add({scene.min().x(), scene.min().y(), scene.min().z()});
+    box.add({scene.max().x(), scene.max().y(), scene.max().z()});
+    GridStack stack;
+    stack.frame = frame_of(box);
+    stack.levels.push_back(level_of(*chosen, stack.frame, file));
+    return stack;
+}
+
+}
+
+void write_grids(const GridStack& stack, const std::filesystem::path& file) {
+    openvdb::GridCPtrVec grids;
+    for (std::size_t i = 0; i < stack.levels.size(); ++i) {
+        const LevelSet& level = stack.levels[i];
+        auto grid = level.grid->grid->copy();
+        grid->setName(level_name(i));
+        grid->setCreator(creator);
+        grid->setGridClass(openvdb::GRID_LEVEL_SET);
+        const auto put = [&](const char* name, double value) {
+            grid->insertMeta(name, openvdb::DoubleMetadata(value));
+        };
+        put("alcove:center_x", stack.frame.center.x);
+        put("alcove:center_y", stack.frame.center.y);
+        put("alcove:center_z", stack.frame.center.z);
+        put("alcove:diagonal", stack.frame.diagonal);
+        put("alcove:voxel", level.voxel);
+        put("alcove:outer_band", level.outer_band);
+        grid->insertMeta("alcove:sign", openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
+        grids.push_back(std::move(grid));
+    }
+    AtomicFile out(file);
+    try {
+        io::File archive(out.temporary().string());
+        archive.setCompression(io::COMPRESS_BLOSC | io::COMPRESS_ACTIVE_MASK);
+        archive.write(grids);
+        archive.close();
+    } catch (const openvdb::Exception& error) {
+        throw IoError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+    }
+    out.commit();
+}
+
+GridStack read_grids(const std::filesystem::path& file) {
+    std::vector<FloatGrid::Ptr> grids = read_all(file);
+    for (const FloatGrid::Ptr& grid : grids)
+        check_values(*grid, file);
+    if (grids.empty())
+        refuse(file, "holds no grid of floats: alcove needs a level set");
+    std::vector<FloatGrid::Ptr> ours;
+    std::copy_if(grids.begin(), grids.end(), std::back_inserter(ours), [](const auto& g) { return is_ours(*g); });
+    std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) {
+        return number(*a, "alcove:voxel") < number(*b, "alcove:voxel");
+    });
+    return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
+}
+
+}
