@@ -35,7 +35,7 @@ void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& orig
 }
 
 Bricks::Bricks(const LevelSet& level, float value_scale)
-    : voxel_(level.voxel), usable_((level.outer_band - 1.0f) * level.voxel) {
+    : voxel_(level.voxel), usable_((level.outer_band - 1.0f) * level.voxel), origin_(level.origin) {
     const openvdb::FloatGrid& grid = *level.grid->grid;
     std::vector<const Leaf*> leaves;
     grid.tree().getNodes(leaves);

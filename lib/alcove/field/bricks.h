@@ -34,6 +34,8 @@ class Bricks {
 
     BrickView view() const;
     float voxel() const { return voxel_; }
+    /// Centre of the voxel of index (0, 0, 0).
+    const Vec3& origin() const { return origin_; }
     /// Distances below this are right; above, the outermost voxel of the band spoils the interpolation.
     float usable() const { return usable_; }
     std::size_t bytes() const { return (index_.size() + bricks_.size()) * sizeof(float); }
@@ -46,7 +48,8 @@ class Bricks {
     std::vector<float> bricks_;
     std::int32_t size_[3] = {0, 0, 0};
     float voxel_ = 0.0f, usable_ = 0.0f;
-    Vec3 offset_{0.0f};
+    Vec3 origin_{0.0f};
+    Vec3 offset_{0.0f}; // sample coordinate = p / voxel + offset
 };
 
 /// distances[i] = trilinear interpolation at points[i], with the widest SIMD instructions of the running machine.
