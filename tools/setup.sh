@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 packages=(
     g++ cmake ninja-build clang-format clang-tidy ccache
     libopenvdb-dev libboost-dev libboost-iostreams-dev libopenmesh-dev libtbb-dev libhwy-dev libglm-dev
-    libopenexr-dev libpng-dev libfast-float-dev libfmt-dev libcli11-dev nlohmann-json3-dev libembree-dev
+    libnanovdb-dev libopenexr-dev libpng-dev libfast-float-dev libfmt-dev libcli11-dev nlohmann-json3-dev libembree-dev
     libgtest-dev libbenchmark-dev
 )
 
