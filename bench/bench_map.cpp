@@ -1,6 +1,6 @@
-/// The cost of a map(): five probes along the normal of every vertex of a scan of about 100,000 vertices, on one core,
-/// 128 voxels along the diagonal, a band of 5, vertices in file order and in the order bakes use. Beside it
-/// OpenVDB's and NanoVDB's own samplers and the floor: a scalar trilinear fetch from a dense array.
+/// The cost of a map(): five probes along the normal of every vertex of a scan of about 100,000 vertices, on
+/// one core, 128 voxels along the diagonal, a band of 5, vertices in file order and in the order bakes use.
+/// Beside it OpenVDB's and NanoVDB's own samplers and the floor: a scalar trilinear fetch from a dense array.
 ///
 ///     build/bench/bench_map --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/field/level_stack.h"
@@ -31,14 +31,16 @@ Mesh subdivided(const Mesh& mesh) {
     fine.positions = mesh.positions;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-        const auto [at, added] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.positions.size()));
+        const auto [at, added] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.positions.size()));
         if (added)
             fine.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
         return at->second;
     };
     for (const auto& [a, b, c] : triangulate(mesh).triangles) {
         const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        for (const Triangle& t : {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+        for (const Triangle& t :
+             {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
             fine.add_face(t);
     }
     return fine;
@@ -52,15 +54,21 @@ struct Scene {
         options.grid.voxel = voxel;
         options.grid.radius = 4.0f * voxel;
         stack = voxelize(mesh, triangles, options);
-        bricks = std::make_unique<Bricks>(stack.levels.front(), static_cast<float>(1.0 / stack.frame.diagonal));
-        const std::vector<Surfel> surfels = make_surfels(mesh, triangles, stack.frame);
+        bricks =
+            std::make_unique<Bricks>(stack.levels.front(), static_cast<float>(1.0 / stack.frame.diagonal));
+        surfels = make_surfels(mesh, triangles, stack.frame);
         for (const std::uint32_t i : spatial_order(surfels))
             sorted.push_back(surfels[i]);
     }
 
     GridStack stack;
     std::unique_ptr<Bricks> bricks;
-    std::vector<Surfel> sorted;
+    std::vector<Surfel> surfels; ///< in file order
+    std::vector<Surfel> sorted;  ///< along a Morton curve
+
+    const std::vector<Surfel>& order(const benchmark::State& state) const {
+        return state.range(0) ? sorted : surfels;
+    }
 };
 
 const Scene& scene() {
@@ -75,14 +83,14 @@ void probe_all(benchmark::State& state, const Sample& sample) {
     const Vec3 origin = s.stack.levels.front().origin;
     float sum = 0.0f;
     for (auto _ : state) {
-        for (const Surfel& surfel : s.sorted) {
+        for (const Surfel& surfel : s.order(state)) {
             const Vec3 p = (surfel.position - origin) / voxel;
             for (int i = 0; i < probes; ++i)
                 sum += sample(p + 0.8f * static_cast<float>(i) * surfel.normal);
         }
         benchmark::DoNotOptimize(sum);
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.sorted.size()) * probes);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.surfels.size()) * probes);
 }
 
 void dense_array(benchmark::State& state) {
@@ -90,7 +98,8 @@ void dense_array(benchmark::State& state) {
     static const std::vector<float> dense(static_cast<std::size_t>(n) * n * n, 1.0f);
     probe_all(state, [&](const Vec3& p) {
         const int x = static_cast<int>(p.x), y = static_cast<int>(p.y), z = static_cast<int>(p.z);
-        const float tx = p.x - static_cast<float>(x), ty = p.y - static_cast<float>(y), tz = p.z - static_cast<float>(z);
+        const float tx = p.x - static_cast<float>(x), ty = p.y - static_cast<float>(y),
+                    tz = p.z - static_cast<float>(z);
         const float* c = &dense[static_cast<std::size_t>(((x & 126) * n + (y & 126)) * n + (z & 126))];
         const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
         const float near = mix(mix(c[0], c[1], tz), mix(c[n], c[n + 1], tz), ty);
@@ -98,7 +107,7 @@ void dense_array(benchmark::State& state) {
         return mix(near, far, tx);
     });
 }
-BENCHMARK(dense_array);
+BENCHMARK(dense_array)->ArgName("sorted")->Arg(0)->Arg(1);
 
 void openvdb_box_sampler(benchmark::State& state) {
     const auto accessor = scene().stack.levels.front().grid->grid->getConstAccessor();
@@ -106,7 +115,7 @@ void openvdb_box_sampler(benchmark::State& state) {
         return openvdb::tools::BoxSampler::sample(accessor, openvdb::Vec3d(p.x, p.y, p.z));
     });
 }
-BENCHMARK(openvdb_box_sampler);
+BENCHMARK(openvdb_box_sampler)->ArgName("sorted")->Arg(0)->Arg(1);
 
 void nanovdb_sampler(benchmark::State& state) {
     static const auto handle = nanovdb::openToNanoVDB(*scene().stack.levels.front().grid->grid);
@@ -114,25 +123,26 @@ void nanovdb_sampler(benchmark::State& state) {
     const auto sampler = nanovdb::createSampler<1>(accessor);
     probe_all(state, [&](const Vec3& p) { return sampler(nanovdb::Vec3f(p.x, p.y, p.z)); });
 }
-BENCHMARK(nanovdb_sampler);
+BENCHMARK(nanovdb_sampler)->ArgName("sorted")->Arg(0)->Arg(1);
 
 void bricks_scalar(benchmark::State& state) {
     const Vec3 origin = scene().stack.levels.front().origin;
     probe_all(state, [&](const Vec3& p) { return scene().bricks->map(origin + voxel * p); });
 }
-BENCHMARK(bricks_scalar);
+BENCHMARK(bricks_scalar)->ArgName("sorted")->Arg(0)->Arg(1);
 
 void bricks_batched(benchmark::State& state) {
     const Scene& s = scene();
+    const std::vector<Surfel>& surfels = s.order(state);
     const BrickView view = s.bricks->view();
     float sum = 0.0f;
     for (auto _ : state) {
         SurfelBatch batch;
         SurfelBatch::Values x, y, z, d;
-        for (std::size_t begin = 0; begin < s.sorted.size(); begin += batch.count) {
+        for (std::size_t begin = 0; begin < surfels.size(); begin += batch.count) {
             batch.count = 0;
-            for (std::size_t i = begin; i < s.sorted.size() && batch.count < SurfelBatch::capacity; ++i)
-                batch.push_back(s.sorted[i]);
+            for (std::size_t i = begin; i < surfels.size() && batch.count < SurfelBatch::capacity; ++i)
+                batch.push_back(surfels[i]);
             for (int i = 0; i < probes; ++i) {
                 const float h = voxel * 0.8f * static_cast<float>(i);
                 for (std::size_t k = 0; k < batch.count; ++k) {
@@ -147,9 +157,9 @@ void bricks_batched(benchmark::State& state) {
         }
         benchmark::DoNotOptimize(sum);
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.sorted.size()) * probes);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.surfels.size()) * probes);
 }
-BENCHMARK(bricks_batched);
+BENCHMARK(bricks_batched)->ArgName("sorted")->Arg(0)->Arg(1);
 
 }
 

@@ -25,14 +25,17 @@ double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const V
     const Vec3d unit = n / area;
     const double height = glm::dot(p - a, unit);
     const Vec3d foot = p - height * unit;
-    const auto left_of = [&](const Vec3d& s, const Vec3d& e) { return glm::dot(glm::cross(e - s, foot - s), unit) >= 0; };
+    const auto left_of = [&](const Vec3d& s, const Vec3d& e) {
+        return glm::dot(glm::cross(e - s, foot - s), unit) >= 0;
+    };
     return left_of(a, b) && left_of(b, c) && left_of(c, a) ? std::fmin(edges, std::fabs(height)) : edges;
 }
 
 }
 
 ExactSurface::ExactSurface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame)
-    : triangles_(triangles.begin(), triangles.end()), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    : triangles_(triangles.begin(), triangles.end()), device_(rtcNewDevice(nullptr)),
+      scene_(rtcNewScene(device_)) {
     for (const Vec3d& p : mesh.positions)
         positions_.push_back(is_finite(p) ? (p - frame.center) / frame.diagonal : Vec3d(0.0));
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
@@ -42,8 +45,8 @@ ExactSurface::ExactSurface(const Mesh& mesh, std::span<const Triangle> triangles
     for (const Vec3d& p : positions_)
         for (int axis = 0; axis < 3; ++axis)
             *vertices++ = static_cast<float>(p[axis]);
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                                                        RTC_FORMAT_UINT3, 12, triangles_.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles_.size()));
     for (const Triangle& t : triangles_)
         for (const std::uint32_t v : t)
             *indices++ = v;
@@ -87,10 +90,12 @@ double ExactSurface::distance(const Vec3& p) const {
 double ExactSurface::winding_number(const Vec3& p) const {
     double angle = 0.0;
     for (const Triangle& t : triangles_) {
-        const Vec3d a = positions_[t[0]] - Vec3d(p), b = positions_[t[1]] - Vec3d(p), c = positions_[t[2]] - Vec3d(p);
+        const Vec3d a = positions_[t[0]] - Vec3d(p), b = positions_[t[1]] - Vec3d(p),
+                    c = positions_[t[2]] - Vec3d(p);
         const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                                  la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+        angle +=
+            2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                             la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
     }
     return angle / (4.0 * std::numbers::pi);
 }
@@ -112,7 +117,8 @@ double ExactSurface::visibility(const Surfel& surfel, float radius, int rays) co
         const double u = (i + 0.5) / rays, v = reversed * 0x1p-32;
         const double r = std::sqrt(u), phi = 2.0 * std::numbers::pi * v;
         const Vec3 d = static_cast<float>(r * std::cos(phi)) * tangent +
-                       static_cast<float>(r * std::sin(phi)) * bitangent + static_cast<float>(std::sqrt(1.0 - u)) * n;
+                       static_cast<float>(r * std::sin(phi)) * bitangent +
+                       static_cast<float>(std::sqrt(1.0 - u)) * n;
         RTCRay ray{};
         ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
         ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
@@ -127,7 +133,8 @@ double ExactSurface::visibility(const Surfel& surfel, float radius, int rays) co
 Vec3 ExactSurface::point(std::size_t triangle, float u, float v) const {
     const Triangle& t = triangles_[triangle];
     const double root = std::sqrt(u);
-    return Vec3((1.0 - root) * positions_[t[0]] + root * (1.0 - v) * positions_[t[1]] + root * v * positions_[t[2]]);
+    return Vec3((1.0 - root) * positions_[t[0]] + root * (1.0 - v) * positions_[t[1]] +
+                root * v * positions_[t[2]]);
 }
 
 }

@@ -20,8 +20,8 @@ class ExactSurface {
     /// Unsigned distance; the final point-triangle distances are evaluated in double.
     double distance(const Vec3& p) const;
 
-    /// Generalised winding number: 1 inside, 0 outside a closed surface. A. Van Oosterom, J. Strackee, "The solid
-    /// angle of a plane triangle" (1983), summed over all triangles.
+    /// Generalised winding number: 1 inside, 0 outside a closed surface. A. Van Oosterom, J. Strackee, "The
+    /// solid angle of a plane triangle" (1983), summed over all triangles.
     double winding_number(const Vec3& p) const;
 
     /// The reference occlusion: visibility of `rays` cosine-weighted directions within `radius`, two-sided.

@@ -13,13 +13,16 @@ namespace alcove::test {
 
 /// A sphere of unit radius: an octahedron's faces split `level` times, pushed out. Faces turn outward.
 /// `keep` says which faces stay, by their centre.
-inline Mesh sphere_mesh(int level, const std::function<bool(const Vec3d&)>& keep = [](const Vec3d&) { return true; }) {
+inline Mesh sphere_mesh(
+    int level, const std::function<bool(const Vec3d&)>& keep = [](const Vec3d&) { return true; }) {
     std::vector<Vec3d> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    std::vector<Triangle> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    std::vector<Triangle> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int l = 0; l < level; ++l) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [at, added] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
+            const auto [at, added] =
+                middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
             if (added)
                 points.push_back(glm::normalize(points[a] + points[b]));
             return at->second;

@@ -82,7 +82,8 @@ void add_bake(CLI::App& program) {
     verb->add_option("-o,--output", options->output, "Mesh to write (ply, obj)")->required();
     verb->add_option("--radius", options->radius, "How far occluders count: 0.2, 10%, 3vx or inf")
         ->capture_default_str();
-    verb->add_option("--voxel", options->voxel, "Edge of the finest voxel: a length, or auto")->capture_default_str();
+    verb->add_option("--voxel", options->voxel, "Edge of the finest voxel: a length, or auto")
+        ->capture_default_str();
     verb->add_option("--method", options->method, "Estimator")->capture_default_str();
     verb->add_option("--samples", options->estimator.samples, "Probes a vertex; 0: the method's own");
     verb->add_option("--rays", options->estimator.rays, "Rays a vertex; 0: the method's own");

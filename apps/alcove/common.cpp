@@ -15,7 +15,8 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
                                                            {"none", ProgressMode::none}};
     verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
     verb.add_flag("--json", options.json, "Print the result as one JSON object on stdout");
-    verb.add_option("--progress", options.progress, "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
+    verb.add_option("--progress", options.progress,
+                    "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
         ->transform(CLI::Transformer(modes).description(""))
         ->option_text("MODE");
     verb.add_flag("--quiet", options.quiet, "Neither progress nor warnings");

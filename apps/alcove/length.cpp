@@ -24,9 +24,10 @@ Length parse_length(const std::string& text, const std::string& option) {
         end = const_cast<char*>(begin);
     }
     if (end == begin || !(length.value > 0.0))
-        throw UsageError(fmt::format("{} takes a positive length, not '{}': write 0.2 (scene units), 10% (of the "
-                                     "diagonal) or 3vx (finest voxels)",
-                                     option, text));
+        throw UsageError(
+            fmt::format("{} takes a positive length, not '{}': write 0.2 (scene units), 10% (of the "
+                        "diagonal) or 3vx (finest voxels)",
+                        option, text));
     return length;
 }
 
@@ -40,7 +41,8 @@ float Length::to_unit(double diagonal, float voxel) const {
         break;
     }
     if (voxel <= 0.0f)
-        throw UsageError("a length in vx needs the voxel itself to be set: give --voxel as a length or a percentage");
+        throw UsageError(
+            "a length in vx needs the voxel itself to be set: give --voxel as a length or a percentage");
     return static_cast<float>(value * voxel);
 }
 

@@ -19,7 +19,8 @@ int complain(ExitCode code, const char* message) {
 }
 
 int main(int argc, char** argv) {
-    CLI::App program{"Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
+    CLI::App program{
+        "Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
     program.set_version_flag("--version", "alcove " ALCOVE_VERSION);
     program.require_subcommand(1);
     program.footer("Start with: alcove bake model.ply -o model_ao.ply");

@@ -37,8 +37,8 @@ void ProgressMeter::operator()(double done) {
     if (mode_ == ProgressMode::bar) {
         constexpr int width = 30;
         const int filled = static_cast<int>(done * width);
-        fmt::print(stderr, "\r\033[K{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", label_, "", filled, "", width - filled,
-                   100.0 * done, left);
+        fmt::print(stderr, "\r\033[K{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", label_, "", filled, "",
+                   width - filled, 100.0 * done, left);
         std::fflush(stderr);
     } else {
         fmt::print(stderr, "{}: {:.0f} %, {}\n", label_, 100.0 * done, left);

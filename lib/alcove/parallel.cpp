@@ -11,9 +11,8 @@ namespace alcove {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
     const std::size_t blocks = (count + grain - 1) / grain;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-        body(block * grain, std::min(count, (block + 1) * grain));
-    });
+    tbb::parallel_for(std::size_t{0}, blocks,
+                      [&](std::size_t block) { body(block * grain, std::min(count, (block + 1) * grain)); });
 }
 
 ThreadLimit::ThreadLimit(unsigned threads) {

@@ -6,9 +6,9 @@
 
 namespace alcove {
 
-/// Calls `body(begin, end)` for disjoint ranges that cover [0, count), each at most `grain` long and starting at
-/// a multiple of it: what a range holds does not depend on the number of threads. Blocks until all are done; an
-/// exception thrown by `body` is rethrown here.
+/// Calls `body(begin, end)` for disjoint ranges that cover [0, count), each at most `grain` long and starting
+/// at a multiple of it: what a range holds does not depend on the number of threads. Blocks until all are
+/// done; an exception thrown by `body` is rethrown here.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

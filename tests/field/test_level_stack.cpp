@@ -25,9 +25,7 @@ GridStack stack_of(const Mesh& mesh, float voxel, float radius) {
 struct PointCloud {
     std::vector<float> x, y, z;
 
-    void push_back(const Vec3& p) {
-        x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-    }
+    void push_back(const Vec3& p) { x.push_back(p.x), y.push_back(p.y), z.push_back(p.z); }
     Points points() const { return {x.data(), y.data(), z.data(), x.size()}; }
 };
 
@@ -42,7 +40,8 @@ PointCloud random_points(float extent, std::size_t count) {
 
 TEST(LevelStack, SimdSamplerEqualsItsScalarTwin) {
     const LevelStack field(stack_of(test::sphere_mesh(4), 1.0f / 64.0f, 0.3f));
-    const PointCloud cloud = random_points(0.8f, 4099); // beyond the grid too, and no multiple of any lane count
+    const PointCloud cloud =
+        random_points(0.8f, 4099); // beyond the grid too, and no multiple of any lane count
     std::vector<float> simd(cloud.x.size());
     for (const Bricks& level : field.levels()) {
         sample_bricks(level.view(), cloud.points(), simd.data());

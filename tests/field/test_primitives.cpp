@@ -21,17 +21,32 @@ class Primitive : public testing::Test {
   public:
     static const F& shape();
 };
-template <> const Plane& Primitive<Plane>::shape() { return plane; }
-template <> const Sphere& Primitive<Sphere>::shape() { return sphere; }
-template <> const Cuboid& Primitive<Cuboid>::shape() { return cuboid; }
-template <> const Torus& Primitive<Torus>::shape() { return torus; }
-template <> const Capsule& Primitive<Capsule>::shape() { return capsule; }
+template <>
+const Plane& Primitive<Plane>::shape() {
+    return plane;
+}
+template <>
+const Sphere& Primitive<Sphere>::shape() {
+    return sphere;
+}
+template <>
+const Cuboid& Primitive<Cuboid>::shape() {
+    return cuboid;
+}
+template <>
+const Torus& Primitive<Torus>::shape() {
+    return torus;
+}
+template <>
+const Capsule& Primitive<Capsule>::shape() {
+    return capsule;
+}
 
 using Shapes = testing::Types<Plane, Sphere, Cuboid, Torus, Capsule>;
 TYPED_TEST_SUITE(Primitive, Shapes);
 
-/// A function is the distance to its own zero set where it is 1 steep and a step of its length along the gradient
-/// lands on zero.
+/// A function is the distance to its own zero set where it is 1 steep and a step of its length along the
+/// gradient lands on zero.
 TYPED_TEST(Primitive, IsTheDistanceToItsOwnZeroSet) {
     const auto& shape = TestFixture::shape();
     std::mt19937 random(7);
@@ -40,7 +55,9 @@ TYPED_TEST(Primitive, IsTheDistanceToItsOwnZeroSet) {
     for (int i = 0; i < 2000; ++i) {
         const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
         const float h = 1e-3f, d = shape.map(p);
-        const auto slope = [&](const Vec3& e) { return (shape.map(p + h * e) - shape.map(p - h * e)) / (2 * h); };
+        const auto slope = [&](const Vec3& e) {
+            return (shape.map(p + h * e) - shape.map(p - h * e)) / (2 * h);
+        };
         const Vec3 gradient(slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1}));
         if (std::fabs(glm::length(gradient) - 1.0f) > 1e-2f)
             continue; // the medial axis, where two sides are as near
@@ -91,7 +108,8 @@ TEST(Combine, BatchedFormsEqualScalarOnes) {
     map_batch(any, points, any_reach, erased.data());
     for (std::size_t i = 0; i < x.size(); ++i) {
         const Vec3 p = points[i];
-        const float expected = std::min({sphere.map(p), 0.5f * torus.map((p - Vec3(0.4f, 0.0f, 0.1f)) / 0.5f), plane.map(p)});
+        const float expected =
+            std::min({sphere.map(p), 0.5f * torus.map((p - Vec3(0.4f, 0.0f, 0.1f)) / 0.5f), plane.map(p)});
         EXPECT_FLOAT_EQ(batched[i], expected);
         EXPECT_EQ(batched[i], erased[i]);
         EXPECT_EQ(any.map(p), field.map(p));

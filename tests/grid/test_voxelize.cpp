@@ -16,8 +16,8 @@ namespace {
 
 struct Errors {
     double mean = 0.0, percentile99 = 0.0;
-    double wrong_sign = 0.0;     ///< share of the voxels
-    double deepest_wrong = 0.0;  ///< voxels
+    double wrong_sign = 0.0;    ///< share of the voxels
+    double deepest_wrong = 0.0; ///< voxels
     std::size_t samples = 0;
 };
 
@@ -58,8 +58,9 @@ void expect_exact_distances(const LevelStack& field, Sign sign, const test::Real
     const test::ExactSurface exact(real.mesh, real.triangles, real.frame);
     for (const Bricks& level : field.levels()) {
         const Errors e = errors_at_centres(level, sign, exact, 1000);
-        SCOPED_TRACE(fmt::format("1/{:.0f}: mean {:.5f} p99 {:.4f} wrong {:.2f} % up to {:.2f}", 1 / level.voxel(),
-                                 e.mean, e.percentile99, 100 * e.wrong_sign, e.deepest_wrong));
+        SCOPED_TRACE(fmt::format("1/{:.0f}: mean {:.5f} p99 {:.4f} wrong {:.2f} % up to {:.2f}",
+                                 1 / level.voxel(), e.mean, e.percentile99, 100 * e.wrong_sign,
+                                 e.deepest_wrong));
         EXPECT_LE(e.mean, 0.001);
         EXPECT_LE(e.percentile99, 0.03);
         EXPECT_LE(e.wrong_sign, 0.01);
@@ -86,12 +87,13 @@ TEST_P(SolidMesh, ValuesAtVoxelCentresAreSignedDistances) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Archive, SolidMesh,
-                         testing::Values("armadillo.off", "elephant.off", "fandisk.off", "knot1.off", "rotor.off",
-                                         "cube.off", "sphere.off", "anchor.off", "pinion.off", "bull.off",
-                                         "eight.off"));
+                         testing::Values("armadillo.off", "elephant.off", "fandisk.off", "knot1.off",
+                                         "rotor.off", "cube.off", "sphere.off", "anchor.off", "pinion.off",
+                                         "bull.off", "eight.off"));
 
-/// Closed meshes whose parts run into each other: inside of one part, near a face of another, the faces do not tell
-/// inside from outside. Distances are as exact, and few voxels near the surface are on the wrong side.
+/// Closed meshes whose parts run into each other: inside of one part, near a face of another, the faces do
+/// not tell inside from outside. Distances are as exact, and few voxels near the surface are on the wrong
+/// side.
 class OverlappingMesh : public testing::TestWithParam<const char*> {};
 
 TEST_P(OverlappingMesh, HasExactDistancesAndFewWrongSigns) {
@@ -99,7 +101,8 @@ TEST_P(OverlappingMesh, HasExactDistancesAndFewWrongSigns) {
     expect_exact_distances(LevelStack(voxelize_at_128(real)), Sign::sheet, real);
 }
 
-INSTANTIATE_TEST_SUITE_P(Archive, OverlappingMesh, testing::Values("cow.off", "camel.off", "ChineseDragon-10kv.off"));
+INSTANTIATE_TEST_SUITE_P(Archive, OverlappingMesh,
+                         testing::Values("cow.off", "camel.off", "ChineseDragon-10kv.off"));
 
 }
 }

@@ -11,8 +11,8 @@ namespace alcove {
 class AnyField {
   public:
     template <class F>
-        requires(!std::same_as<F, AnyField> && Field<F>)
-    AnyField(F field) : self_(std::make_shared<const Holder<F>>(std::move(field))) {}
+    requires(!std::same_as<F, AnyField> && Field<F>) AnyField(F field)
+        : self_(std::make_shared<const Holder<F>>(std::move(field))) {}
 
     float map(const Vec3& p) const { return self_->map_one(p); }
     void map(const Points& points, float reach, float* distances) const {

@@ -17,7 +17,8 @@ constexpr int cells = BrickView::cells, samples = BrickView::samples;
 static_assert(Leaf::DIM == cells);
 
 /// The samples of a brick: its own leaf's and the first layers of seven neighbours.
-void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& origin, float value_scale, float* brick) {
+void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& origin, float value_scale,
+                float* brick) {
     for (int side = 0; side < 8; ++side) {
         const int sx = side >> 2, sy = side >> 1 & 1, sz = side & 1;
         const Coord neighbour = origin.offsetBy(sx * cells, sy * cells, sz * cells);
@@ -59,7 +60,8 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
     const auto slot = [&](const Coord& origin) {
         const Coord b = origin - low;
         return (static_cast<std::size_t>(b.x() / cells) * static_cast<std::size_t>(size_[1]) +
-                static_cast<std::size_t>(b.y() / cells)) * static_cast<std::size_t>(size_[2]) +
+                static_cast<std::size_t>(b.y() / cells)) *
+                   static_cast<std::size_t>(size_[2]) +
                static_cast<std::size_t>(b.z() / cells);
     };
     for (const Leaf* leaf : leaves)
@@ -96,7 +98,10 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
 }
 
 BrickView Bricks::view() const {
-    return {index_.data(), bricks_.data(), {size_[0], size_[1], size_[2]}, 1.0f / voxel_,
+    return {index_.data(),
+            bricks_.data(),
+            {size_[0], size_[1], size_[2]},
+            1.0f / voxel_,
             {offset_.x, offset_.y, offset_.z}};
 }
 
@@ -112,14 +117,16 @@ float Bricks::map(const Vec3& p) const {
         t[axis] = clamped - whole;
     }
     const auto slot = (static_cast<std::size_t>(cell[0] / cells) * static_cast<std::size_t>(size_[1]) +
-                       static_cast<std::size_t>(cell[1] / cells)) * static_cast<std::size_t>(size_[2]) +
+                       static_cast<std::size_t>(cell[1] / cells)) *
+                          static_cast<std::size_t>(size_[2]) +
                       static_cast<std::size_t>(cell[2] / cells);
     const float* corner = &bricks_[static_cast<std::size_t>(
         index_[slot] + ((cell[0] % cells) * samples + cell[1] % cells) * samples + cell[2] % cells)];
-    const auto along_z = [&](int at) { return std::lerp(corner[at], corner[at + 1], t[2]); };
-    const float near = std::lerp(along_z(0), along_z(samples), t[1]);
-    const float far = std::lerp(along_z(samples * samples), along_z(samples * samples + samples), t[1]);
-    return std::lerp(near, far, t[0]);
+    const auto mix = [](float a, float b, float s) { return a + (b - a) * s; }; // std::lerp branches
+    const auto along_z = [&](int at) { return mix(corner[at], corner[at + 1], t[2]); };
+    const float near = mix(along_z(0), along_z(samples), t[1]);
+    const float far = mix(along_z(samples * samples), along_z(samples * samples + samples), t[1]);
+    return mix(near, far, t[0]);
 }
 
 }

@@ -1,7 +1,7 @@
 /// One level set as dense bricks under a flat index: what makes a map() cost a few nanoseconds.
 ///
-/// A brick holds 9³ samples: the 8³ of an OpenVDB leaf and the first layer of its neighbours, so that all eight
-/// corners of any cell lie in one brick. Trilinear interpolation inside the band, ±band beyond it.
+/// A brick holds 9³ samples: the 8³ of an OpenVDB leaf and the first layer of its neighbours, so that all
+/// eight corners of any cell lie in one brick. Trilinear interpolation inside the band, ±band beyond it.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -20,9 +20,9 @@ struct BrickView {
 
     const std::int32_t* index; ///< position of each brick in `bricks`, x slowest
     const float* bricks;
-    std::int32_t size[3];   ///< bricks along each axis
-    float scale;            ///< samples a unit of length
-    float offset[3];        ///< sample coordinate = scale · p + offset
+    std::int32_t size[3]; ///< bricks along each axis
+    float scale;          ///< samples a unit of length
+    float offset[3];      ///< sample coordinate = scale · p + offset
 };
 
 /// Const use is thread-safe; copies share nothing.
@@ -52,8 +52,8 @@ class Bricks {
     Vec3 offset_{0.0f}; // sample coordinate = p / voxel + offset
 };
 
-/// distances[i] = trilinear interpolation at points[i], with the widest SIMD instructions of the running machine.
-/// Points must be finite; those outside the index read the value of its border.
+/// distances[i] = trilinear interpolation at points[i], with the widest SIMD instructions of the running
+/// machine. Points must be finite; those outside the index read the value of its border.
 void sample_bricks(const BrickView& view, const Points& points, float* distances);
 
 }

@@ -1,8 +1,9 @@
 /// What a field is: anything that answers `map(p)`, the signed distance from p to the surface.
 ///
 /// Distances and points share one unit (unit space for fields made from meshes, see types.h). A field may
-/// answer less than the true distance where it does not know it (a *bound*), never more than that by more than its
-/// own resolution; tracing and estimators rely on it. `const` use is safe from any number of threads.
+/// answer less than the true distance where it does not know it (a *bound*), never more than that by more
+/// than its own resolution; tracing and estimators rely on it. `const` use is safe from any number of
+/// threads.
 #pragma once
 
 #include "alcove/types.h"
@@ -30,14 +31,15 @@ concept Field = requires(const F& field, Vec3 p) {
     { field.map(p) } -> std::convertible_to<float>;
 };
 
-/// A field with a batched form. `reach` is an upper bound of the distances the caller cares about, such as the
-/// height of a probe above the surface: the field may answer from data that is right only up to there.
+/// A field with a batched form. `reach` is an upper bound of the distances the caller cares about, such as
+/// the height of a probe above the surface: the field may answer from data that is right only up to there.
 template <class F>
 concept BatchedField = Field<F> && requires(const F& field, Points points, float reach, float* distances) {
     field.map(points, reach, distances);
 };
 
-/// distances[i] = field.map(points[i]), through the batched form where there is one. Cost: `count` map() calls.
+/// distances[i] = field.map(points[i]), through the batched form where there is one. Cost: `count` map()
+/// calls.
 template <Field F>
 void map_batch(const F& field, const Points& points, float reach, float* distances) {
     if constexpr (BatchedField<F>) {
@@ -51,7 +53,9 @@ void map_batch(const F& field, const Points& points, float reach, float* distanc
 /// The length below which a field says nothing reliable: the finest voxel of a grid, 0 for exact shapes.
 template <Field F>
 float resolution(const F& field) {
-    if constexpr (requires { { field.resolution() } -> std::convertible_to<float>; })
+    if constexpr (requires {
+                      { field.resolution() } -> std::convertible_to<float>;
+                  })
         return field.resolution();
     else
         return 0.0f;

@@ -47,8 +47,9 @@ void LevelStack::map(const Points& points, float reach, float* distances) const 
         return;
     }
     for (std::size_t begin = 0; begin < points.count; begin += block)
-        escalate({points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)},
-                 distances + begin);
+        escalate(
+            {points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)},
+            distances + begin);
 }
 
 void LevelStack::escalate(const Points& points, float* distances) const {

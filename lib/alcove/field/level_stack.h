@@ -8,9 +8,9 @@
 namespace alcove {
 
 /// Distances in unit space, trilinear on the finest level whose band holds them: neither saturated values nor
-/// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the value
-/// saturates there: a lower bound of the true distance. A probe known to be no further than `reach` from the surface
-/// reads the one level made for that height, its voxel at most half of it.
+/// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the
+/// value saturates there: a lower bound of the true distance. A probe known to be no further than `reach`
+/// from the surface reads the one level made for that height, its voxel at most half of it.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
 class LevelStack {

@@ -23,8 +23,29 @@ HWY_INLINE void locate(D d, V p, float scale, float offset, std::int32_t bricks,
     t = hn::Sub(q, hn::ConvertTo(d, cell));
 }
 
+/// a = values[at], b = values[at + 1].
+template <class D, class V = hn::Vec<D>, class I = hn::Vec<hn::RebindToSigned<D>>>
+HWY_INLINE void gather_pair(D d, const float* values, I at, V& a, V& b) {
+#if HWY_TARGET == HWY_SCALAR
+    a = hn::GatherIndex(d, values, at);
+    b = hn::GatherIndex(d, values + 1, at);
+#else
+    // Both are one load of 64 bits: half the gathers.
+    const hn::Repartition<std::int64_t, D> wide;
+    const hn::Half<hn::RebindToSigned<D>> half;
+    const auto* pairs = reinterpret_cast<const std::int64_t*>(values);
+    const auto lower = hn::ShiftLeft<2>(hn::PromoteTo(wide, hn::LowerHalf(half, at)));
+    const auto upper = hn::ShiftLeft<2>(hn::PromoteTo(wide, hn::UpperHalf(half, at)));
+    const V low = hn::BitCast(d, hn::GatherOffset(wide, pairs, lower));
+    const V high = hn::BitCast(d, hn::GatherOffset(wide, pairs, upper));
+    a = hn::ConcatEven(d, high, low);
+    b = hn::ConcatOdd(d, high, low);
+#endif
+}
+
 template <class D>
-HWY_INLINE void sample(D d, const BrickView& view, const float* x, const float* y, const float* z, float* distances) {
+HWY_INLINE void sample(D d, const BrickView& view, const float* x, const float* y, const float* z,
+                       float* distances) {
     const hn::RebindToSigned<D> di;
     using V = hn::Vec<D>;
     using I = hn::Vec<decltype(di)>;
@@ -35,19 +56,19 @@ HWY_INLINE void sample(D d, const BrickView& view, const float* x, const float* 
     locate(d, hn::LoadU(d, z), view.scale, view.offset[2], view.size[2], iz, tz);
 
     const I in_brick = hn::Set(di, BrickView::cells - 1);
-    const I brick = hn::Add(hn::Mul(hn::Add(hn::Mul(hn::ShiftRight<3>(ix), hn::Set(di, view.size[1])),
-                                            hn::ShiftRight<3>(iy)),
-                                    hn::Set(di, view.size[2])),
-                            hn::ShiftRight<3>(iz));
-    const I local = hn::Add(hn::Mul(hn::Add(hn::Mul(hn::And(ix, in_brick), hn::Set(di, samples)),
-                                            hn::And(iy, in_brick)),
-                                    hn::Set(di, samples)),
-                            hn::And(iz, in_brick));
+    const I brick = hn::Add(
+        hn::Mul(hn::Add(hn::Mul(hn::ShiftRight<3>(ix), hn::Set(di, view.size[1])), hn::ShiftRight<3>(iy)),
+                hn::Set(di, view.size[2])),
+        hn::ShiftRight<3>(iz));
+    const I local =
+        hn::Add(hn::Mul(hn::Add(hn::Mul(hn::And(ix, in_brick), hn::Set(di, samples)), hn::And(iy, in_brick)),
+                        hn::Set(di, samples)),
+                hn::And(iz, in_brick));
     const I corner = hn::Add(hn::GatherIndex(di, view.index, brick), local);
 
     const auto along_z = [&](int at) HWY_ATTR {
-        const V a = hn::GatherIndex(d, view.bricks + at, corner);
-        const V b = hn::GatherIndex(d, view.bricks + at + 1, corner);
+        V a, b;
+        gather_pair(d, view.bricks + at, corner, a, b);
         return hn::MulAdd(hn::Sub(b, a), tz, a);
     };
     const V near0 = along_z(0), near1 = along_z(samples);

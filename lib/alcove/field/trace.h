@@ -10,7 +10,7 @@
 namespace alcove {
 
 struct TraceOptions {
-    float far = 1.0f;          ///< distance along the ray where a miss is certain; may be infinite
+    float far = 1.0f;           ///< distance along the ray where a miss is certain; may be infinite
     float hit_distance = 1e-4f; ///< the surface is reached where map() answers less
     float shortest_step = 1e-4f;
     int max_steps = 1024; ///< a ray that is not done by then is a miss

@@ -34,7 +34,9 @@ apron(const openvdb::tree::ValueAccessor<const Int32Tree>& nearest, const Coord&
     std::array<int, apron_size * apron_size * apron_size> around;
     around.fill(no_triangle);
     const auto range = [](int side) { // of local coordinates that a neighbouring leaf covers
-        return side < 0 ? std::pair{-1, 0} : side > 0 ? std::pair{leaf_size, leaf_size + 1} : std::pair{0, leaf_size};
+        return side < 0   ? std::pair{-1, 0}
+               : side > 0 ? std::pair{leaf_size, leaf_size + 1}
+                          : std::pair{0, leaf_size};
     };
     for (int sx = -1; sx <= 1; ++sx)
         for (int sy = -1; sy <= 1; ++sy)
@@ -165,10 +167,12 @@ double Band::contradictions() const {
             for (auto voxel = leaves[l]->cbeginValueOn(); voxel; ++voxel)
                 for (const Coord step : {Coord(1, 0, 0), Coord(0, 1, 0), Coord(0, 0, 1)}) {
                     float other;
-                    if (!distance.probeValue(voxel.getCoord() + step, other) || (other < 0.0f) == (*voxel < 0.0f))
+                    if (!distance.probeValue(voxel.getCoord() + step, other) ||
+                        (other < 0.0f) == (*voxel < 0.0f))
                         continue;
                     ++crossed;
-                    // A surface between two voxels a step apart is no further than that step from both together.
+                    // A surface between two voxels a step apart is no further than that step from both
+                    // together.
                     if (std::fabs(other) + std::fabs(*voxel) > 1.1f)
                         ++wrong;
                 }

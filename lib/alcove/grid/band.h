@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// Distances from -1 to this many voxels behind a face keep their sign in a sheet: every cell that a face can pass
-/// through has its corners within √3.
+/// Distances from -1 to this many voxels behind a face keep their sign in a sheet: every cell that a face can
+/// pass through has its corners within √3.
 inline constexpr float sheet_thickness = 1.75f;
 
 struct BandWidth {
@@ -19,13 +19,13 @@ struct BandWidth {
     float inner = 0.0f; ///< voxels; the same as outer for sheets
 };
 
-/// Grown outward from voxels next to the surface, a layer a round: a voxel's nearest triangle is looked for among
-/// those of its 26 neighbours and evaluated exactly. What a round reads is never what it writes, so the result
-/// does not depend on the number of threads.
+/// Grown outward from voxels next to the surface, a layer a round: a voxel's nearest triangle is looked for
+/// among those of its 26 neighbours and evaluated exactly. What a round reads is never what it writes, so the
+/// result does not depend on the number of threads.
 class Band {
   public:
-    /// `nearest` holds the index of a near triangle at its active voxels, at least all those within half a voxel
-    /// of the surface. A voxel of this band is `stride` of the surface's units wide.
+    /// `nearest` holds the index of a near triangle at its active voxels, at least all those within half a
+    /// voxel of the surface. A voxel of this band is `stride` of the surface's units wide.
     Band(const Surface& surface, int stride, openvdb::Int32Tree::Ptr nearest, BandWidth width);
 
     /// Grows the band further.

@@ -46,7 +46,8 @@ std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
         // What OpenVDB says may hold any bytes of the file: keep a readable start of it.
         std::string reason = error.what();
         reason.resize(std::min<std::size_t>(reason.size(), 100));
-        std::replace_if(reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+        std::replace_if(
+            reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
         refuse(file, fmt::format("is no readable .vdb file ({}): write it again", reason));
     }
     if (!stream)
@@ -80,10 +81,12 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const Frame& frame, const std::fil
     const double size = map(0, 0);
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
-            if (std::fabs(map(row, column) - (row == column ? size : 0.0)) > 1e-6 * std::fabs(size) || !(size > 0.0))
-                refuse(file, fmt::format("grid '{}' has voxels that are no cubes along the axes: resample it to a "
-                                         "uniform, unrotated transform",
-                                         grid->getName()));
+            if (std::fabs(map(row, column) - (row == column ? size : 0.0)) > 1e-6 * std::fabs(size) ||
+                !(size > 0.0))
+                refuse(file,
+                       fmt::format("grid '{}' has voxels that are no cubes along the axes: resample it to a "
+                                   "uniform, unrotated transform",
+                                   grid->getName()));
     LevelSet level;
     level.voxel = static_cast<float>(size / frame.diagonal);
     const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
@@ -117,7 +120,8 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
         level.voxel = static_cast<float>(number(*grid, "alcove:voxel"));
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         if (!(level.voxel > 0.0f) || !(level.outer_band >= 3.0f))
-            refuse(file, fmt::format("grid '{}' has lost its alcove metadata: write it again", grid->getName()));
+            refuse(file,
+                   fmt::format("grid '{}' has lost its alcove metadata: write it again", grid->getName()));
         stack.levels.push_back(std::move(level));
     }
     return stack;
@@ -127,7 +131,8 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     auto chosen = std::find_if(grids.begin(), grids.end(),
                                [](const auto& g) { return g->getGridClass() == openvdb::GRID_LEVEL_SET; });
     if (chosen == grids.end())
-        chosen = std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
+        chosen =
+            std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
     if (chosen == grids.end() || !((*chosen)->background() > 0.0f) || (*chosen)->activeVoxelCount() == 0)
         refuse(file, "holds no level set of floats: alcove needs signed distances, positive outside");
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
@@ -160,7 +165,8 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         put("alcove:diagonal", stack.frame.diagonal);
         put("alcove:voxel", level.voxel);
         put("alcove:outer_band", level.outer_band);
-        grid->insertMeta("alcove:sign", openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
+        grid->insertMeta("alcove:sign",
+                         openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
         grids.push_back(std::move(grid));
     }
     AtomicFile out(file);
@@ -182,7 +188,8 @@ GridStack read_grids(const std::filesystem::path& file) {
     if (grids.empty())
         refuse(file, "holds no grid of floats: alcove needs a level set");
     std::vector<FloatGrid::Ptr> ours;
-    std::copy_if(grids.begin(), grids.end(), std::back_inserter(ours), [](const auto& g) { return is_ours(*g); });
+    std::copy_if(grids.begin(), grids.end(), std::back_inserter(ours),
+                 [](const auto& g) { return is_ours(*g); });
     std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) {
         return number(*a, "alcove:voxel") < number(*b, "alcove:voxel");
     });

@@ -62,10 +62,11 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
         plan.voxel = options.voxel;
         if (!estimate.fits(plan.voxel, options.memory_limit)) {
             const double fitting = estimate.finest_that_fits(plan.voxel, options.memory_limit);
-            throw LimitError(fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
-                                         "of {:.1f} GB: use --voxel {:.2g}% or more, or --voxel auto",
-                                         100.0 * plan.voxel, estimate.bytes(plan.voxel) / 1e9,
-                                         options.memory_limit / 1e9, std::ceil(1e4 * fitting) / 100.0));
+            throw LimitError(
+                fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
+                            "of {:.1f} GB: use --voxel {:.2g}% or more, or --voxel auto",
+                            100.0 * plan.voxel, estimate.bytes(plan.voxel) / 1e9, options.memory_limit / 1e9,
+                            std::ceil(1e4 * fitting) / 100.0));
         }
     } else {
         const float wanted = std::clamp(reach / 8.0f, 1.0f / 1024.0f, 1.0f / 256.0f);

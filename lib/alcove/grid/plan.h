@@ -10,7 +10,8 @@ namespace alcove {
 struct GridOptions {
     /// Largest distance from the surface that is asked for, unit space, > 0; infinity is cut to the diagonal.
     float radius = 0.1f;
-    /// Edge of the finest voxel, unit space; 0 chooses 1/256, or radius/8 where that is finer, down to 1/1024.
+    /// Edge of the finest voxel, unit space; 0 chooses 1/256, or radius/8 where that is finer, down to
+    /// 1/1024.
     float voxel = 0.0f;
     /// Voxels outward from the surface on every level, at least 3: map() is right up to one less.
     float outer_band = 5.0f;
@@ -27,9 +28,9 @@ struct LevelPlan {
     double bytes = 0.0; ///< estimate of the peak while building
 };
 
-/// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted from
-/// area / voxel².
-/// \throw LimitError if a voxel that was asked for needs more than the limit or more than 2^20 voxels along the
+/// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
+/// from area / voxel². \throw LimitError if a voxel that was asked for needs more than the limit or more than
+/// 2^20 voxels along the
 ///        diagonal, naming the finest voxel that fits. A voxel of 0 is coarsened until it fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
 

@@ -19,8 +19,8 @@ float corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
 
 }
 
-Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame, const Vec3d& origin,
-                 double voxel) {
+Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
+                 const Vec3d& origin, double voxel) {
     positions_.resize(mesh.positions.size());
     parallel_for(positions_.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
@@ -29,7 +29,8 @@ Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Fr
     triangles_.reserve(triangles.size());
     face_normals_.reserve(triangles.size());
     for (const Triangle& t : triangles) {
-        const Vec3d cross = glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
+        const Vec3d cross =
+            glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
         if (const double length = glm::length(cross); length > 0.0) {
             triangles_.push_back(t);
             face_normals_.emplace_back(cross / length);
@@ -64,7 +65,8 @@ void Surface::weight_normals() {
         for (std::uint32_t k = 0; k < 3; ++k) {
             const Triangle& tri = triangles_[t];
             const std::uint32_t at = tri[k], next = tri[(k + 1) % 3], last = tri[(k + 2) % 3];
-            vertex_normals_[joined_[at]] += corner_angle(positions_[at], positions_[next], positions_[last]) * face_normals_[t];
+            vertex_normals_[joined_[at]] +=
+                corner_angle(positions_[at], positions_[next], positions_[last]) * face_normals_[t];
             const auto [low, high] = std::minmax(joined_[at], joined_[next]);
             const auto slot = static_cast<std::uint32_t>(3 * t + k);
             half_edges[slot] = {(std::uint64_t{low} << 32) | high, slot};

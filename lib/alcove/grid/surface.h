@@ -11,13 +11,13 @@ namespace alcove {
 /// A closest point of a triangle.
 struct ClosestPoint {
     double distance2 = 0.0;
-    /// Dot product of the pseudonormal there with the way from it to the query: its sign is the side. 0 at the
-    /// rim of an open surface, which has none.
+    /// Dot product of the pseudonormal there with the way from it to the query: its sign is the side. 0 at
+    /// the rim of an open surface, which has none.
     double side = 0.0;
 };
 
-/// The triangles of a mesh in index space, index = (unit − origin) / voxel, in double precision. Triangles without an
-/// area are left out: their edges belong to their neighbours, and a direction they have not.
+/// The triangles of a mesh in index space, index = (unit − origin) / voxel, in double precision. Triangles
+/// without an area are left out: their edges belong to their neighbours, and a direction they have not.
 ///
 /// Signs by angle-weighted pseudonormals of vertices and edges, coincident vertices joined: J. A. Bærentzen,
 /// H. Aanæs, "Signed distance computation using the angle weighted pseudonormal" (2005). Right everywhere for
@@ -35,15 +35,15 @@ class Surface {
     double distance2(std::size_t triangle, const Vec3d& p) const;
     ClosestPoint closest(std::size_t triangle, const Vec3d& p) const;
 
-    /// A triangle at least as near to `p`, found by walking from `triangle` to the nearest of those around its
-    /// nearest corner until none is nearer. Finds what neighbouring voxels do not know where triangles are much
-    /// smaller than a voxel.
+    /// A triangle at least as near to `p`, found by walking from `triangle` to the nearest of those around
+    /// its nearest corner until none is nearer. Finds what neighbouring voxels do not know where triangles
+    /// are much smaller than a voxel.
     std::size_t descend(std::size_t triangle, const Vec3d& p) const;
 
   private:
     struct Nearest {
-        Vec3d offset;      // from the closest point to the query
-        int feature;       // 0..2 a corner, 3..5 the edge from corner feature − 3 to the next, 6 the face
+        Vec3d offset; // from the closest point to the query
+        int feature;  // 0..2 a corner, 3..5 the edge from corner feature − 3 to the next, 6 the face
     };
     Nearest nearest(std::size_t triangle, const Vec3d& p) const;
     void weight_normals();

@@ -1,5 +1,5 @@
-/// The only door to OpenVDB's headers, which take a quarter of a minute to compile: included by few .cpp files and
-/// by no public header.
+/// The only door to OpenVDB's headers, which take a quarter of a minute to compile: included by few .cpp
+/// files and by no public header.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"

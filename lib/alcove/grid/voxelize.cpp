@@ -13,8 +13,9 @@
 namespace alcove {
 namespace {
 
-// Above this share of sign changes away from the surface, a solid is none. Sound scans and parts have none at all,
-// closed meshes that overlap themselves somewhere 0.02 to 0.2 %, those made of overlapping parts 0.5 % and more.
+// Above this share of sign changes away from the surface, a solid is none. Sound scans and parts have none at
+// all, closed meshes that overlap themselves somewhere 0.02 to 0.2 %, those made of overlapping parts 0.5 %
+// and more.
 constexpr double tolerated_contradictions = 2.5e-3;
 
 struct TrianglesForOpenVdb {
@@ -40,15 +41,17 @@ openvdb::Int32Tree::Ptr rasterize(const Surface& surface) {
     return nearest.treePtr();
 }
 
-Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest, std::vector<std::string>& warnings) {
+Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest,
+                 std::vector<std::string>& warnings) {
     if (choice == SignChoice::sheet)
         return Sign::sheet;
     const double contradictions = finest.contradictions();
     if (choice == SignChoice::solid) {
         if (contradictions > tolerated_contradictions)
-            warnings.push_back(fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the sign changes "
-                                           "are not at its surface: use --sign auto",
-                                           100.0 * contradictions));
+            warnings.push_back(
+                fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the sign changes "
+                            "are not at its surface: use --sign auto",
+                            100.0 * contradictions));
         return Sign::solid;
     }
     if (contradictions > tolerated_contradictions)
@@ -58,8 +61,8 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest, std::v
     return surface.closed() && surface.inverted_components == 0 ? Sign::solid : Sign::sheet;
 }
 
-/// Index (0, 0, 0) of all levels: below and left of every band, so that a tree has one root node and not eight, each
-/// of a quarter of a megabyte.
+/// Index (0, 0, 0) of all levels: below and left of every band, so that a tree has one root node and not
+/// eight, each of a quarter of a megabyte.
 Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
     const float margin = std::ldexp(plan.voxel, plan.levels - 1) * (std::ceil(plan.outer_band) + 2.0f);
     return frame.to_unit(box.min) - margin;

@@ -22,11 +22,12 @@ struct VoxelizeOptions {
     std::function<void(double done)> progress;
 };
 
-/// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor its
-/// place matter. The finest level touches every triangle; coarser ones are seeded from the one before. The result
-/// does not depend on the number of threads.
+/// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor
+/// its place matter. The finest level touches every triangle; coarser ones are seeded from the one before.
+/// The result does not depend on the number of threads.
 ///
 /// \throw InputError if no triangle has an area; LimitError as plan_levels().
-GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options = {});
+GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles,
+                   const VoxelizeOptions& options = {});
 
 }

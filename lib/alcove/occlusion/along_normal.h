@@ -9,12 +9,12 @@ namespace alcove {
 ///
 ///     ao = clamp(1 − 3 Σ 0.95^i (h_i − d(p + h_i n))),   h_i = 0.01 + 0.12 i/4,   i = 0..4
 ///
-/// for a radius of 0.13; other radii by scaling the scene. Source: "SDF Ambient Occlusion — Detailed Reference"
-/// (2026), after A. Evans, "Fast approximations for global illumination on dynamic scenes" (2006).
+/// for a radius of 0.13; other radii by scaling the scene. Source: "SDF Ambient Occlusion — Detailed
+/// Reference" (2026), after A. Evans, "Fast approximations for global illumination on dynamic scenes" (2006).
 /// Exact on planes and convex shapes (1). Cost: `samples` map() calls a surfel.
 struct Classic {
     float radius = 0.1f; ///< furthest probe, > 0
-    int samples = 5;     ///< probes, >= 2; the sum is weighted by 5/samples, so that more of them do not darken
+    int samples = 5; ///< probes, >= 2; the sum is weighted by 5/samples, so that more of them do not darken
 
     static constexpr float document_radius = 0.13f;
 

@@ -35,8 +35,9 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
             const auto code = [](double x) { return spread(static_cast<std::uint64_t>(x)); };
             keys.push_back({code(cell.x) << 2 | code(cell.y) << 1 | code(cell.z), i});
         }
-    std::sort(keys.begin(), keys.end(),
-              [](const Key& a, const Key& b) { return a.code != b.code ? a.code < b.code : a.index < b.index; });
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.code != b.code ? a.code < b.code : a.index < b.index;
+    });
     std::vector<std::uint32_t> order(keys.size());
     std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& k) { return k.index; });
     return order;

@@ -14,12 +14,12 @@ namespace alcove {
 /// Told how much of the work is done, in [0, 1]; never from two threads at once.
 using Progress = std::function<void(double done)>;
 
-/// The indices of the surfels that have a normal, along a Morton curve: neighbours in the list are neighbours in
-/// space, so a batch reads few bricks. G. M. Morton, "A computer oriented geodetic data base" (1966).
+/// The indices of the surfels that have a normal, along a Morton curve: neighbours in the list are neighbours
+/// in space, so a batch reads few bricks. G. M. Morton, "A computer oriented geodetic data base" (1966).
 std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 
-/// One value a surfel, in [0, 1]; 1 where there is no normal. The values do not depend on the number of threads
-/// nor on the order of the surfels. Cost: that of the estimator, a surfel.
+/// One value a surfel, in [0, 1]; 1 where there is no normal. The values do not depend on the number of
+/// threads nor on the order of the surfels. Cost: that of the estimator, a surfel.
 template <Field F, Estimator<F> E>
 std::vector<float> bake(std::span<const Surfel> surfels, const F& field, const E& estimator,
                         const Progress& progress = {}) {

@@ -25,7 +25,8 @@ struct Method {
     std::string_view formula;
     std::string_view source;
     std::string_view cost; ///< in map() calls a surfel
-    std::vector<float> (*bake)(std::span<const Surfel>, const AnyField&, const EstimatorOptions&, const Progress&);
+    std::vector<float> (*bake)(std::span<const Surfel>, const AnyField&, const EstimatorOptions&,
+                               const Progress&);
 };
 
 /// All methods, in the order of the documentation.

@@ -38,8 +38,8 @@ inline Vec3 uniform_hemisphere(float u, float v) {
     return {r * std::cos(phi), r * std::sin(phi), u};
 }
 
-/// Mixes the bits of x: every output bit depends on every input bit. C. Wellons, "Prospecting for Hash Functions"
-/// (2018), lowbias32.
+/// Mixes the bits of x: every output bit depends on every input bit. C. Wellons, "Prospecting for Hash
+/// Functions" (2018), lowbias32.
 inline std::uint32_t hash(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x7feb352du;

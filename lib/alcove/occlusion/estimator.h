@@ -6,8 +6,9 @@
 ///         void operator()(const F& field, const SurfelBatch& surfels, float* ao) const;
 ///     };
 ///
-/// It writes one visibility a surfel of the batch, in [0, 1]; every surfel of a batch has a normal. Lengths are in
-/// the units of the field. `const` and without state, so that any number of threads share one estimator.
+/// It writes one visibility a surfel of the batch, in [0, 1]; every surfel of a batch has a normal. Lengths
+/// are in the units of the field. `const` and without state, so that any number of threads share one
+/// estimator.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -37,7 +38,8 @@ struct SurfelBatch {
 };
 
 template <class E, class F>
-concept Estimator = Field<F> && requires(const E& estimator, const F& field, const SurfelBatch& surfels, float* ao) {
+concept Estimator = Field<F> &&
+    requires(const E& estimator, const F& field, const SurfelBatch& surfels, float* ao) {
     estimator(field, surfels, ao);
 };
 

@@ -1,4 +1,5 @@
-/// Rays over the hemisphere, sphere-traced through the field: what tends to the reference as rays and voxels do.
+/// Rays over the hemisphere, sphere-traced through the field: what tends to the reference as rays and voxels
+/// do.
 #pragma once
 
 #include "alcove/field/trace.h"
@@ -12,8 +13,8 @@ namespace alcove {
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
 /// V = 0 where the ray meets the surface within the radius. Source: "04 Ambient Occlusion", lecture notes.
-/// Rays start at a height above the surface of one voxel, or of 1e-4 for exact fields. Cost: rays × 5–20 map() calls a
-/// surfel.
+/// Rays start at a height above the surface of one voxel, or of 1e-4 for exact fields. Cost: rays × 5–20
+/// map() calls a surfel.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< a surfel, >= 1
@@ -46,7 +47,8 @@ struct Traced {
             const float shift_u = unit_interval(h), shift_v = unit_interval(hash(h));
             for (int r = 0; r < rays; ++r) {
                 const Vec2 uv = fibonacci_point(r, rays, shift_u, shift_v);
-                const Vec3 local = cosine_weighted ? cosine_hemisphere(uv.x, uv.y) : uniform_hemisphere(uv.x, uv.y);
+                const Vec3 local =
+                    cosine_weighted ? cosine_hemisphere(uv.x, uv.y) : uniform_hemisphere(uv.x, uv.y);
                 owner[batch.count] = static_cast<std::uint8_t>(i);
                 weight[batch.count] = cosine_weighted ? 1.0f : 2.0f * local.z;
                 batch.push_back({origin, basis.to_world(local)}, 0.0f);
