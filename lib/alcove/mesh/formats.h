@@ -7,6 +7,9 @@
 
 namespace alcove {
 
+/// read_mesh() of a file in memory.
+Mesh read_bytes(const FileBytes& file);
+
 // Each throws InputError for damage. A mesh without faces is left to read_mesh() to refuse.
 Mesh read_ply(const FileBytes& file);
 Mesh read_obj(const FileBytes& file);
@@ -26,6 +29,9 @@ std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path
 
 /// Ends the face whose corners were pushed since the last call. \throw LimitError beyond 2^32 corners.
 void close_face(Mesh& mesh);
+
+/// A colour component that runs to 255 as a byte; 0 if it is not a number.
+std::uint8_t color_byte(double value);
 
 /// n at unit length; zero where it has no finite, positive length.
 Vec3 unit_or_zero(const Vec3d& n);

@@ -189,11 +189,7 @@ class ObjReader {
         for (const auto& color : colors_)
             largest = std::max({largest, color[0], color[1], color[2]});
         const double scale = largest > 1.0 ? 1.0 : 255.0;
-        const auto byte = [scale](double value) {
-            value *= scale;
-            return value > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0)))
-                               : std::uint8_t(0);
-        };
+        const auto byte = [scale](double value) { return color_byte(value * scale); };
         for (const auto& [r, g, b, a] : colors_) {
             const bool colored = r >= 0.0 || g >= 0.0 || b >= 0.0;
             without += !colored;

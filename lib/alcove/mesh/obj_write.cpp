@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <span>
 
 namespace alcove {
 namespace {
@@ -112,35 +113,23 @@ Buffer composed(const Mesh& mesh, const WriteOptions& options) {
 
 /// The properties and elements of a PLY input that an OBJ has no place for.
 void list_lost(const PlyDocument& document, std::vector<std::string>& lost) {
-    constexpr std::array<std::string_view, 22> stored{"x",
-                                                      "y",
-                                                      "z",
-                                                      "nx",
-                                                      "ny",
-                                                      "nz",
-                                                      "s",
-                                                      "t",
-                                                      "u",
-                                                      "v",
-                                                      "texture_u",
-                                                      "texture_v",
-                                                      "s0",
-                                                      "t0",
-                                                      "red",
-                                                      "green",
-                                                      "blue",
-                                                      "alpha",
-                                                      "vertex_indices",
-                                                      "vertex_index",
-                                                      "texcoord",
-                                                      ""};
+    constexpr std::array<std::string_view, 18> of_vertices{
+        "x", "y",         "z",         "nx", "ny", "nz",  "s",     "t",    "u",
+        "v", "texture_u", "texture_v", "s0", "t0", "red", "green", "blue", "alpha"};
+    // The colours of faces are told by the caller, whatever file they come from.
+    constexpr std::array<std::string_view, 7> of_faces{"vertex_indices", "vertex_index", "texcoord", "red",
+                                                       "green",          "blue",         "alpha"};
     for (const PlyElement& element : document.elements) {
-        const bool known = element.name == "vertex" || element.name == "face";
-        if (!known)
+        std::span<const std::string_view> stored;
+        if (element.name == "vertex")
+            stored = of_vertices;
+        else if (element.name == "face")
+            stored = of_faces;
+        else
             lost.push_back("not stored in OBJ: " + grouped(element.count) + " rows of element " +
                            in_quotes(element.name));
         for (const PlyProperty& property : element.properties)
-            if (known && std::find(stored.begin(), stored.end(), property.name) == stored.end())
+            if (!stored.empty() && std::find(stored.begin(), stored.end(), property.name) == stored.end())
                 lost.push_back("not stored in OBJ: property " + in_quotes(property.name) + " of element " +
                                in_quotes(element.name));
     }

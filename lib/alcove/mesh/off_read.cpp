@@ -10,6 +10,9 @@
 namespace alcove {
 namespace {
 
+/// Tokens counted on the rest of a line: more than any colour and texture coordinate have.
+constexpr std::size_t most_tokens = 8;
+
 /// What the header keyword announces for every vertex.
 struct Layout {
     bool uvs = false, colors = false, normals = false, weights = false, dimension = false;
@@ -48,9 +51,7 @@ class ColorList {
     std::vector<Color> resolved(std::size_t count) const {
         std::vector<Color> colors(count, Color{170, 170, 170, 255});
         const double scale = fraction_ || largest_ <= 1.0 ? 255.0 : 1.0;
-        const auto byte = [&](double value) {
-            return static_cast<std::uint8_t>(std::lround(std::clamp(value * scale, 0.0, 255.0)));
-        };
+        const auto byte = [scale](double value) { return color_byte(value * scale); };
         for (std::size_t i = 0; i < indices_.size(); ++i) {
             const auto& [r, g, b, a] = values_[i];
             colors[indices_[i]] = {byte(r), byte(g), byte(b), a < 0.0 ? std::uint8_t(255) : byte(a)};
@@ -120,7 +121,7 @@ class OffReader {
             fail("a count is negative; export the file again");
         vertices_ = static_cast<std::size_t>(vertices);
         faces_ = static_cast<std::size_t>(faces);
-        if (vertices_ > left / vertex_bytes || faces_ > left / face_bytes)
+        if (vertices_ > (left + 1) / vertex_bytes || faces_ > (left + 1) / face_bytes)
             fail(counted(vertices_, "vertex", "vertices") + " and " + counted(faces_, "face", "faces") +
                  " are announced but only " + grouped(left) + " bytes follow; copy or export the file again");
         mesh_.positions.reserve(vertices_);
@@ -137,7 +138,7 @@ class OffReader {
         if (!text_.at_line_end() || next_line_is_one_number())
             text_.integer("the number of edges");
         // The shortest vertex is "0 0 0\n", the shortest face "0\n"; the last line end may be missing.
-        check_counts(vertices, faces, 6, 2, text_.bytes_left() + 1,
+        check_counts(vertices, faces, 6, 2, text_.bytes_left(),
                      [&](const std::string& message) { file_.fail_at_line(counts, message); });
         for (std::size_t v = 0; v < vertices_; ++v)
             read_text_vertex(v);
@@ -151,7 +152,7 @@ class OffReader {
     /// Whether an edge count stands on the line below the two others.
     bool next_line_is_one_number() {
         TextScanner ahead(text_);
-        return !ahead.at_end() && ahead.tokens_on_line() == 1;
+        return !ahead.at_end() && ahead.tokens_on_line(2) == 1;
     }
 
     void read_text_vertex(std::size_t v) {
@@ -168,7 +169,7 @@ class OffReader {
             mesh_.normals.push_back(unit_or_zero(n));
         }
         if (layout_.colors) {
-            const std::size_t left = text_.tokens_on_line();
+            const std::size_t left = text_.tokens_on_line(most_tokens);
             const std::size_t behind = layout_.uvs ? 2 : 0;
             if (left < behind + 1)
                 text_.fail("the vertex has no colour; one of 3 or 4 numbers is expected on its line");
@@ -183,7 +184,7 @@ class OffReader {
             return;
         // Vertices may share a line; 3 or 4 more values on the line of each are unannounced colours or
         // normals.
-        const std::size_t left = text_.tokens_on_line();
+        const std::size_t left = text_.tokens_on_line(most_tokens);
         if ((left == 3 || left == 4) && (v == 0 ? every_vertex_line_has(left) : unannounced_ == v)) {
             ++unannounced_;
             text_.next_line();
@@ -197,7 +198,7 @@ class OffReader {
         TextScanner ahead(text_);
         for (std::size_t v = 1; v < vertices_; ++v) {
             ahead.next_line();
-            if (ahead.at_end() || ahead.tokens_on_line() != announced + more)
+            if (ahead.at_end() || ahead.tokens_on_line(announced + most_tokens) != announced + more)
                 return false;
         }
         return true;
@@ -219,7 +220,7 @@ class OffReader {
         }
         close_face(mesh_);
         if (!text_.at_line_end())
-            read_text_color(text_.tokens_on_line(), f, face_colors_);
+            read_text_color(text_.tokens_on_line(most_tokens), f, face_colors_);
     }
 
     void read_text_color(std::size_t components, std::size_t index, ColorList& colors) {

@@ -100,12 +100,12 @@ void read_vertex_uvs(const PlyElement& vertices, Mesh& mesh) {
 }
 
 /// A colour component as a byte: floats run to 1, ushorts to 65535, the other types to 255.
-std::uint8_t color_byte(double value, PlyType type) {
+std::uint8_t color_component(double value, PlyType type) {
     if (!is_integral(type))
         value *= 255.0;
     else if (type == PlyType::uint16)
         value /= 257.0;
-    return value > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : std::uint8_t(0);
+    return color_byte(value);
 }
 
 void read_colors(const PlyElement& element, std::vector<Color>& colors) {
@@ -115,7 +115,7 @@ void read_colors(const PlyElement& element, std::vector<Color>& colors) {
     colors.assign(element.count, Color{0, 0, 0, 255});
     const auto read_component = [&](const PlyProperty& property, std::size_t component) {
         for_each_value(element, property, [&](std::size_t row, const std::byte* bytes) {
-            colors[row][component] = color_byte(number_at(bytes, property.type), property.type);
+            colors[row][component] = color_component(number_at(bytes, property.type), property.type);
         });
     };
     for (std::size_t c = 0; c < 3; ++c)

@@ -50,11 +50,12 @@ void warn_of_odd_geometry(Mesh& mesh) {
                                 " fewer than three corners; kept, but no surface is built on them");
 }
 
-Mesh read_checked(const std::filesystem::path& path) {
-    const FileBytes file(path);
+}
+
+Mesh read_bytes(const FileBytes& file) {
     Mesh mesh = reader_of(file)(file);
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
-        throw LimitError(path.string() + ": more than 2^32 vertices; split the mesh");
+        throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
     if (mesh.face_count() == 0)
         file.fail("holds " + counted(mesh.vertex_count(), "point", "points") +
                   " but no faces; a surface is needed: reconstruct one first");
@@ -62,11 +63,9 @@ Mesh read_checked(const std::filesystem::path& path) {
     return mesh;
 }
 
-}
-
 Mesh read_mesh(const std::filesystem::path& path) {
     try {
-        return read_checked(path);
+        return read_bytes(FileBytes(path));
     } catch (const std::bad_alloc&) {
         throw LimitError(path.string() + ": does not fit in memory; simplify or split the mesh");
     }
@@ -76,6 +75,10 @@ void close_face(Mesh& mesh) {
     if (mesh.corners.size() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError("more than 2^32 face corners; split the mesh");
     mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+}
+
+std::uint8_t color_byte(double value) {
+    return value > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : std::uint8_t(0);
 }
 
 Vec3 unit_or_zero(const Vec3d& n) {

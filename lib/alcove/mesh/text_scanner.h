@@ -66,11 +66,11 @@ class TextScanner {
             ++last;
         return {at_, static_cast<std::size_t>(last - at_)};
     }
-    /// The tokens from here to the end of the line, without moving.
-    std::size_t tokens_on_line() {
+    /// The tokens from here to the end of the line, at most `limit`, without moving.
+    std::size_t tokens_on_line(std::size_t limit) {
         TextScanner ahead(*this);
         std::size_t count = 0;
-        for (; !ahead.at_line_end(); ++count)
+        for (; count < limit && !ahead.at_line_end(); ++count)
             ahead.at_ += ahead.peek().size();
         return count;
     }

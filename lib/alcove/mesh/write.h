@@ -14,9 +14,20 @@ struct WriteOptions {
 
 /// Writes to a temporary file beside `file` and renames it, so that a failure leaves the old file as it was.
 ///
-/// PLY: binary little endian. All elements, properties and comments the input held, byte for byte where the input
-/// was binary little endian too, then the added attributes as float vertex properties in the order they were added
-/// (a property of the same name is replaced in place). OBJ: the input's text with colours on its `v` lines.
+/// PLY: binary little endian. All elements, properties and comments the input held, byte for byte where the
+/// input was binary little endian too, then the added attributes as float vertex properties in the order they
+/// were added (a property of the same name is replaced in place): NAME, of three components NAME_x NAME_y
+/// NAME_z, those of `bent_normal` bent_x bent_y bent_z. `colors` become uchar red green blue alpha. A comment
+/// the file holds already is not repeated. Other inputs get float coordinates, double where float would move
+/// a vertex by more than 1e-6 of the diagonal.
+///
+/// OBJ: the input's text, in which only what follows x y z on the `v` lines changes, and that only if there
+/// are `colors`: a fourth coordinate gives way to r g b. No comments are added to it. Other inputs are
+/// written with the shortest decimals that read back as the same float, where the value is one, else as the
+/// same double.
+///
+/// What the file held is written as it was, whatever the Mesh's own fields say now: reset `Mesh::source`
+/// after moving, adding or removing vertices or faces.
 ///
 /// \return what the format could not hold, in words, one line each; empty when nothing was lost.
 /// \throw InputError for another extension, naming the ones that work; IoError if the file cannot be written.
