@@ -49,5 +49,6 @@ class Stopwatch {
 
 // The verbs: each adds itself to the program, with the work as its callback.
 void add_bake(CLI::App& program);
+void add_render(CLI::App& program);
 
 }

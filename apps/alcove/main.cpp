@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     program.get_formatter()->column_width(36);
     try {
         alcove::cli::add_bake(program);
+        alcove::cli::add_render(program);
         program.parse(argc, argv);
         return done;
     } catch (const CLI::ParseError& error) {

@@ -1,0 +1,266 @@
+#include "common.h"
+#include "length.h"
+
+#include "alcove/errors.h"
+#include "alcove/field/level_stack.h"
+#include "alcove/grid/grid_io.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/read.h"
+#include "alcove/mesh/triangulate.h"
+#include "alcove/render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+namespace alcove::cli {
+namespace {
+
+constexpr double memory_limit = 4e9;
+
+struct Options {
+    CommonOptions common;
+    std::string input, output, size = "1280x720", radius = "10%", method = "classic", eye, look_at,
+                               up = "0,1,0";
+    double fov = CameraOptions{}.fov;
+    std::vector<std::string> passes;
+};
+
+/// What the camera looks at, and what reading it had to say.
+struct Scene {
+    Subject subject;
+    std::vector<Vec3d> points;
+    double voxel;
+    std::size_t levels;
+    float radius; // unit space
+    std::vector<std::string> warnings;
+};
+
+std::string extension(const std::string& file) {
+    std::string text = std::filesystem::path(file).extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+Vec3d parse_vector(const std::string& text, const char* option) {
+    Vec3d v;
+    const char* at = text.c_str();
+    for (int axis = 0; axis < 3; ++axis) {
+        char* end = nullptr;
+        v[axis] = std::strtod(at, &end);
+        const bool last = axis == 2;
+        if (end == at || !std::isfinite(v[axis]) || *end != (last ? '\0' : ','))
+            throw UsageError(
+                fmt::format("{} takes three numbers, not '{}': write {} 1,2.5,-3", option, text, option));
+        at = end + 1;
+    }
+    return v;
+}
+
+Pass parse_pass(const std::string& text) {
+    static const std::map<std::string_view, Pass> passes{
+        {"beauty", Pass::beauty}, {"ao", Pass::ao}, {"normal", Pass::normal}, {"depth", Pass::depth}};
+    const auto found = passes.find(text);
+    if (found == passes.end())
+        throw UsageError(fmt::format("there is no pass '{}'; there are: beauty, ao, normal, depth", text));
+    return found->second;
+}
+
+ImageSize parse_size(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    long long width = 0, height = 0;
+    const auto [middle, bad_width] = std::from_chars(text.data(), end, width);
+    const bool separated = middle != end && (*middle == 'x' || *middle == 'X');
+    const auto [last, bad_height] = std::from_chars(separated ? middle + 1 : end, end, height);
+    if (bad_width != std::errc{} || bad_height != std::errc{} || !separated || last != end || width < 1 ||
+        height < 1)
+        throw UsageError(fmt::format(
+            "--size takes a width and a height of at least 1 pixel, not '{}': write --size 1280x720", text));
+    // Beside the image, its encoded form is in memory once more.
+    const double bytes =
+        2.0 * Image::bytes_per_pixel * static_cast<double>(width) * static_cast<double>(height);
+    constexpr long long longest = 65536;
+    if (bytes > memory_limit || width > longest || height > longest)
+        throw UsageError(
+            fmt::format("--size {} takes about {:.3g} GB; the limits are {:.0f} GB and {} pixels a side",
+                        text, bytes / 1e9, memory_limit / 1e9, longest));
+    return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+CameraOptions camera_options(const Options& options) {
+    CameraOptions camera;
+    if (!options.eye.empty())
+        camera.eye = parse_vector(options.eye, "--eye");
+    if (!options.look_at.empty())
+        camera.look_at = parse_vector(options.look_at, "--look-at");
+    camera.up = parse_vector(options.up, "--up");
+    camera.fov = options.fov;
+    if (camera.up == Vec3d(0.0))
+        throw UsageError("--up takes a direction, not 0,0,0: write --up 0,1,0 or --up 0,0,1");
+    if (camera.eye && camera.look_at && *camera.eye == *camera.look_at)
+        throw UsageError("--eye and --look-at are the same point: move one of them");
+    if (!(camera.fov >= 1.0 && camera.fov <= 170.0))
+        throw UsageError(fmt::format("--fov takes 1 to 170 degrees across the image, not {}", camera.fov));
+    return camera;
+}
+
+Scene scene_of_grid(const Options& options, const Length& radius) {
+    const GridStack stack = read_grids(options.input);
+    const LevelStack field(stack);
+    try {
+        Outline around = outline(field, stack.frame);
+        return {{field, stack.frame, around.box, stack.sign == Sign::sheet},
+                std::move(around.points),
+                stack.levels.front().voxel * stack.frame.diagonal,
+                stack.levels.size(),
+                radius.to_unit(stack.frame.diagonal, stack.levels.front().voxel),
+                stack.warnings};
+    } catch (const InputError& error) {
+        throw InputError(options.input + ": " + error.what());
+    }
+}
+
+Scene scene_of_mesh(const Options& options, const Length& radius, nlohmann::ordered_json& seconds,
+                    Stopwatch& watch) {
+    if (radius.unit == Length::Unit::voxels)
+        throw UsageError(
+            "--radius in vx needs the voxel of a .vdb: for a mesh write 0.2 (scene units) or 10%");
+    const Mesh mesh = read_mesh(options.input);
+    const Triangulation triangulation = triangulate(mesh);
+    const Frame frame = frame_of(mesh.box());
+    seconds["read"] = watch.lap();
+
+    VoxelizeOptions grid;
+    grid.grid.radius = radius.to_unit(frame.diagonal);
+    ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");
+    grid.progress = std::ref(voxelizing);
+    const GridStack stack = voxelize(mesh, triangulation.triangles, grid);
+    std::vector<Vec3d> points;
+    std::copy_if(mesh.positions.begin(), mesh.positions.end(), std::back_inserter(points), is_finite);
+    std::vector<std::string> warnings = mesh.warnings;
+    warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
+    return {{LevelStack(stack), frame, mesh.box(), stack.sign == Sign::sheet},
+            std::move(points),
+            stack.levels.front().voxel * frame.diagonal,
+            stack.levels.size(),
+            grid.grid.radius,
+            std::move(warnings)};
+}
+
+nlohmann::ordered_json triple(const Vec3d& v) {
+    return {v.x, v.y, v.z};
+}
+
+void run(const Options& options) {
+    const ThreadLimit limit(options.common.threads);
+    Stopwatch watch;
+    nlohmann::ordered_json seconds;
+    const std::string format = extension(options.output);
+    if (format != ".exr" && format != ".png")
+        throw UsageError(
+            fmt::format("{}: an image is written as .exr or .png; name the output so", options.output));
+    std::vector<Pass> passes;
+    for (const std::string& pass : options.passes)
+        passes.push_back(parse_pass(pass));
+    if (format == ".png" && passes.size() > 1)
+        throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which holds all");
+    const ImageSize size = parse_size(options.size);
+    const CameraOptions wanted = camera_options(options);
+    const Length radius = parse_length(options.radius, "--radius");
+    RenderOptions rendering;
+    if (options.method != "none")
+        rendering.method = &find_method(options.method);
+
+    const Scene scene = extension(options.input) == ".vdb" ? scene_of_grid(options, radius)
+                                                           : scene_of_mesh(options, radius, seconds, watch);
+    seconds["grid"] = watch.lap();
+
+    const Camera camera = make_camera(wanted, scene.points, size);
+    rendering.lighting = studio_lighting(camera, wanted.up);
+    rendering.estimator.radius = scene.radius;
+    Image image;
+    {
+        ProgressMeter drawing(options.common.progress_mode(), "rendering");
+        image = render(scene.subject, camera, rendering, std::ref(drawing));
+    }
+    seconds["render"] = watch.lap();
+
+    const double diagonal = scene.subject.frame.diagonal;
+    if (format == ".png") {
+        write_png(image, options.output, passes.empty() ? Pass::beauty : passes.front());
+    } else {
+        ImageHeader header;
+        header.world_to_camera = camera.world_to_camera();
+        header.world_to_ndc = camera.world_to_ndc();
+        header.screen_window_width = camera.screen_window_width();
+        header.software = "alcove " ALCOVE_VERSION;
+        header.comments = fmt::format("{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
+                                      std::filesystem::path(options.input).filename().string(),
+                                      options.method, scene.radius * diagonal, scene.voxel);
+        write_exr(image, options.output, header);
+    }
+    seconds["write"] = watch.lap();
+
+    std::vector<std::string> warnings = scene.warnings;
+    const auto covered =
+        std::count_if(image.alpha.begin(), image.alpha.end(), [](float a) { return a > 0.0f; });
+    if (covered == 0)
+        warnings.push_back(
+            "the picture is empty: the camera does not see the subject; leave out --eye and --look-at");
+    print_warnings(warnings, options.common);
+    if (options.common.json)
+        print_json({{"input", options.input},
+                    {"output", options.output},
+                    {"width", size.width},
+                    {"height", size.height},
+                    {"covered_pixels", covered},
+                    {"method", options.method},
+                    {"radius", scene.radius * diagonal},
+                    {"voxel", scene.voxel},
+                    {"levels", scene.levels},
+                    {"camera",
+                     {{"eye", triple(camera.eye())},
+                      {"forward", triple(camera.forward())},
+                      {"up", triple(camera.up())},
+                      {"fov", camera.fov()}}},
+                    {"seconds", seconds},
+                    {"peak_rss_bytes", peak_rss_bytes()},
+                    {"warnings", warnings}});
+}
+
+}
+
+void add_render(CLI::App& program) {
+    auto* verb = program.add_subcommand("render", "Draw a mesh or grid with ambient occlusion");
+    auto options = std::make_shared<Options>();
+    verb->add_option("input", options->input, "Mesh (ply, obj, off, stl) or grid (vdb) to draw")->required();
+    verb->add_option("-o,--output", options->output, "Image to write (exr with all passes, or png)")
+        ->required();
+    verb->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
+    verb->add_option("--radius", options->radius, "How far occluders count: 0.2, 10% or inf")
+        ->type_name("LEN")
+        ->capture_default_str();
+    verb->add_option("--method", options->method, "Estimator, or none")
+        ->type_name("NAME")
+        ->capture_default_str();
+    verb->add_option("--pass", options->passes, "What a png shows: beauty (default), ao, normal or depth")
+        ->option_text("NAME");
+    verb->add_option("--eye", options->eye, "Where the camera is; default: where it sees all")
+        ->type_name("X,Y,Z");
+    verb->add_option("--look-at", options->look_at, "What it looks at; default: the middle")
+        ->type_name("X,Y,Z");
+    verb->add_option("--up", options->up, "Which way is up")->type_name("X,Y,Z")->capture_default_str();
+    verb->add_option("--fov", options->fov, "Degrees across the width")
+        ->type_name("DEG")
+        ->capture_default_str();
+    add_common_options(*verb, options->common);
+    verb->callback([options] { run(*options); });
+}
+
+}

@@ -1,0 +1,36 @@
+#include "alcove/render/subject.h"
+
+#include "alcove/errors.h"
+
+#include <array>
+#include <cmath>
+
+namespace alcove {
+
+Outline outline(const AnyField& field, const Frame& frame) {
+    constexpr int cells = 64;
+    constexpr float cell = 1.0f / cells, half_diagonal = 0.8660254f * cell;
+    const auto center = [](int i) { return (static_cast<float>(i) + 0.5f) * cell - 0.5f; };
+    Outline result;
+    std::array<float, cells> x, y, z, distance;
+    for (int i = 0; i < cells; ++i)
+        z[static_cast<std::size_t>(i)] = center(i);
+    for (int i = 0; i < cells; ++i)
+        for (int k = 0; k < cells; ++k) {
+            x.fill(center(i));
+            y.fill(center(k));
+            map_batch(field, Points{x.data(), y.data(), z.data(), cells}, any_reach, distance.data());
+            for (std::size_t l = 0; l < cells; ++l)
+                if (std::fabs(distance[l]) <= half_diagonal) {
+                    const Vec3 p(x[l], y[l], z[l]);
+                    result.points.push_back(frame.to_scene(p));
+                    result.box.add(frame.to_scene(p - 0.5f * cell));
+                    result.box.add(frame.to_scene(p + 0.5f * cell));
+                }
+        }
+    if (result.points.empty())
+        throw InputError("the grid holds no surface: its distances are nowhere near 0");
+    return result;
+}
+
+}
