@@ -1,0 +1,27 @@
+#include "alcove/mesh/colors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+double encode_srgb(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+}
+
+std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding) {
+    std::vector<Color> colors;
+    colors.reserve(values.size());
+    for (const float value : values) {
+        const double clamped = std::clamp(double(value), 0.0, 1.0);
+        const double encoded = encoding == ColorEncoding::srgb ? encode_srgb(clamped) : clamped;
+        const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+        colors.push_back({grey, grey, grey, 255});
+    }
+    return colors;
+}
+
+}
