@@ -1,76 +1,129 @@
 #include "common.h"
-#include "length.h"
+#include "voxelized.h"
 
+#include "alcove/errors.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/grid/voxelize.h"
+#include "alcove/grid/grid_io.h"
+#include "alcove/mesh/colors.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
-#include "alcove/mesh/triangulate.h"
+#include "alcove/mesh/source.h"
 #include "alcove/mesh/write.h"
 #include "alcove/occlusion/catalog.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace alcove::cli {
 namespace {
 
 struct BakeOptions {
     CommonOptions common;
-    std::string input, output, radius = "10%", voxel = "auto", method = "classic";
+    GridRequest grid;
     EstimatorOptions estimator;
+    std::string input, output, method = "traced", normals = "auto", color, color_encoding = "srgb",
+                               write_grid;
 };
+
+NormalSource parse_normals(const std::string& text) {
+    if (text == "auto")
+        return NormalSource::automatic;
+    if (text == "file")
+        return NormalSource::file;
+    if (text == "area")
+        return NormalSource::area;
+    throw UsageError(fmt::format("--normals takes auto, file or area, not '{}'", text));
+}
+
+ColorEncoding parse_encoding(const std::string& text) {
+    if (text == "srgb")
+        return ColorEncoding::srgb;
+    if (text == "raw")
+        return ColorEncoding::raw;
+    throw UsageError(fmt::format("--color-encoding takes srgb or raw, not '{}'", text));
+}
+
+/// Whether occlusion becomes colours and `quality`: as asked, else unless the input has its own.
+bool wants_colors(const std::string& asked, const Mesh& mesh) {
+    if (!asked.empty())
+        return asked == "ao";
+    return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
+}
 
 void run(const BakeOptions& options) {
     const ThreadLimit limit(options.common.threads);
-    Stopwatch watch;
-    nlohmann::ordered_json seconds;
     const Method& method = find_method(options.method);
-    const Length radius = parse_length(options.radius, "--radius");
+    const NormalSource normals = parse_normals(options.normals);
+    const ColorEncoding encoding = parse_encoding(options.color_encoding);
+    if (!options.color.empty() && options.color != "ao" && options.color != "none")
+        throw UsageError(fmt::format("--color takes ao or none, not '{}'", options.color));
+    if (!can_write_mesh(options.output))
+        throw UsageError(options.output + ": meshes are written as .ply or .obj; name the output so");
 
-    Mesh mesh = read_mesh(options.input);
-    const Triangulation triangulation = triangulate(mesh);
-    const Frame frame = frame_of(mesh.box());
-    seconds["read"] = watch.lap();
+    nlohmann::ordered_json seconds;
+    VoxelizedMesh input = read_and_voxelize(options.input, options.grid, options.common, seconds);
+    Mesh& mesh = input.mesh;
+    Stopwatch watch;
+    const LevelStack field(input.stack);
+    if (!options.write_grid.empty())
+        write_grids(input.stack, options.write_grid);
+    seconds["grid"] = seconds["grid"].get<double>() + watch.lap();
 
-    VoxelizeOptions grid;
-    if (options.voxel != "auto")
-        grid.grid.voxel = parse_length(options.voxel, "--voxel").to_unit(frame.diagonal);
-    grid.grid.radius = radius.to_unit(frame.diagonal, grid.grid.voxel);
-    ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");
-    grid.progress = std::ref(voxelizing);
-    const GridStack stack = voxelize(mesh, triangulation.triangles, grid);
-    const LevelStack field(stack);
-    seconds["grid"] = watch.lap();
-
-    const std::vector<Surfel> surfels = make_surfels(mesh, triangulation.triangles, frame);
+    const std::vector<Surfel> surfels = make_surfels(mesh, input.triangles, input.frame, normals);
+    const auto bare =
+        std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
+    if (bare > 0)
+        input.warnings.push_back(
+            fmt::format("{} of {} vertices have no normal (no face uses them, or their faces "
+                        "cancel) and got ao = 1",
+                        grouped(static_cast<std::size_t>(bare)), grouped(surfels.size())));
     EstimatorOptions estimator = options.estimator;
-    estimator.radius = grid.grid.radius;
-    ProgressMeter baking(options.common.progress_mode(), "baking");
-    mesh.set_attribute({"ao", 1, method.bake(surfels, field, estimator, std::ref(baking))});
+    estimator.radius = input.radius;
+    std::vector<float> ao;
+    {
+        ProgressMeter meter(options.common.progress_mode(), "baking");
+        ao = method.bake(surfels, field, estimator, std::ref(meter));
+    }
     seconds["occlusion"] = watch.lap();
 
-    std::vector<std::string> warnings = mesh.warnings;
-    warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
-    for (const std::string& lost : write_mesh(mesh, options.output))
-        warnings.push_back(lost);
+    const double radius = double(input.radius) * input.frame.diagonal;
+    const double voxel = double(input.stack.levels.front().voxel) * input.frame.diagonal;
+    WriteOptions writing;
+    writing.comments.push_back(fmt::format("alcove {}: ambient occlusion by {}, radius {:.6g}, voxel {:.6g}",
+                                           ALCOVE_VERSION, method.name, radius, voxel));
+    mesh.set_attribute({"ao", 1, ao});
+    if (wants_colors(options.color, mesh)) {
+        if (extension(options.output) == ".ply")
+            mesh.set_attribute({"quality", 1, ao});
+        writing.colors = grey_colors(ao, encoding);
+    }
+    for (std::string& lost : write_mesh(mesh, options.output, writing))
+        input.warnings.push_back(std::move(lost));
     seconds["write"] = watch.lap();
-    print_warnings(warnings, options.common);
+
+    print_warnings(input.warnings, options.common);
     if (options.common.json)
         print_json({{"input", options.input},
+                    {"output", options.output},
                     {"vertices", mesh.vertex_count()},
                     {"faces", mesh.face_count()},
                     {"method", method.name},
-                    {"radius", grid.grid.radius * frame.diagonal},
-                    {"voxel", stack.levels.front().voxel * frame.diagonal},
-                    {"levels", stack.levels.size()},
-                    {"grid_bytes", stack.bytes()},
+                    {"radius", radius},
+                    {"voxel", voxel},
+                    {"levels", input.stack.levels.size()},
+                    {"sign", name_of(input.stack.sign)},
+                    {"grid_bytes", input.stack.bytes()},
                     {"estimated_rmse", nullptr},
                     {"seconds", seconds},
                     {"peak_rss_bytes", peak_rss_bytes()},
-                    {"warnings", warnings}});
+                    {"warnings", input.warnings}});
+    else if (!options.common.quiet)
+        fmt::print("{}: ao of {} vertices by {}, radius {:.4g}, as a {} of {} level{} from voxel {:.4g}\n",
+                   options.output, grouped(mesh.vertex_count()), method.name, radius,
+                   name_of(input.stack.sign), input.stack.levels.size(),
+                   input.stack.levels.size() == 1 ? "" : "s", voxel);
 }
 
 }
@@ -80,15 +133,35 @@ void add_bake(CLI::App& program) {
     auto options = std::make_shared<BakeOptions>();
     verb->add_option("input", options->input, "Mesh to bake (ply, obj, off, stl)")->required();
     verb->add_option("-o,--output", options->output, "Mesh to write (ply, obj)")->required();
-    verb->add_option("--radius", options->radius, "How far occluders count: 0.2, 10%, 3vx or inf")
+    add_radius_option(*verb, options->grid,
+                      "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
+    verb->add_option("--method", options->method, "Estimator: traced or classic")
+        ->type_name("NAME")
         ->capture_default_str();
-    verb->add_option("--voxel", options->voxel, "Edge of the finest voxel: a length, or auto")
+    verb->add_option("--samples", options->estimator.samples, "Probes a vertex (classic; default 5)")
+        ->check(CLI::Range(2, 1 << 20).description(""))
+        ->type_name("N");
+    verb->add_option("--rays", options->estimator.rays, "Rays a vertex (traced; default 64)")
+        ->check(CLI::Range(1, 1 << 20).description(""))
+        ->type_name("N");
+    verb->add_option("--seed", options->estimator.seed, "Seed of the directions")->type_name("N");
+    verb->add_option("--normals", options->normals, "auto: the file's, else area-weighted; file; area")
+        ->type_name("SOURCE")
         ->capture_default_str();
-    verb->add_option("--method", options->method, "Estimator")->capture_default_str();
-    verb->add_option("--samples", options->estimator.samples, "Probes a vertex; 0: the method's own");
-    verb->add_option("--rays", options->estimator.rays, "Rays a vertex; 0: the method's own");
-    verb->add_option("--seed", options->estimator.seed, "Seed of random directions");
+    add_grid_options(*verb, options->grid);
+    verb->add_option("--write-grid", options->write_grid, "Keep the level sets in a .vdb")->type_name("FILE");
+    verb->add_option(
+            "--color", options->color,
+            "ao: as vertex colours and `quality` too; none. Default: ao, unless the input has either")
+        ->type_name("WHAT");
+    verb->add_option("--color-encoding", options->color_encoding, "srgb, or raw (255 x ao)")
+        ->type_name("CODE")
+        ->capture_default_str();
     add_common_options(*verb, options->common);
+    verb->footer("Examples:\n"
+                 "  alcove bake scan.ply -o scan_ao.ply\n"
+                 "  alcove bake part.stl -o part_ao.ply --radius 5% --rays 256\n"
+                 "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n");
     verb->callback([options] { run(*options); });
 }
 

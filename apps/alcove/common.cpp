@@ -4,6 +4,9 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <map>
 
 namespace alcove::cli {
@@ -27,6 +30,12 @@ void print_warnings(const std::vector<std::string>& warnings, const CommonOption
         return;
     for (const std::string& warning : warnings)
         fmt::print(stderr, "alcove: warning: {}\n", warning);
+}
+
+std::string extension(const std::string& file) {
+    std::string text = std::filesystem::path(file).extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
 }
 
 void print_json(const nlohmann::ordered_json& object) {

@@ -33,6 +33,9 @@ void add_common_options(CLI::App& verb, CommonOptions& options);
 /// Prints warnings to stderr, a line each, unless quiet.
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
 
+/// The extension of a file's name in lower case, with its dot.
+std::string extension(const std::string& file);
+
 /// Prints the object on stdout.
 void print_json(const nlohmann::ordered_json& object);
 
@@ -50,5 +53,6 @@ class Stopwatch {
 // The verbs: each adds itself to the program, with the work as its callback.
 void add_bake(CLI::App& program);
 void add_render(CLI::App& program);
+void add_voxelize(CLI::App& program);
 
 }

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
     try {
         alcove::cli::add_bake(program);
         alcove::cli::add_render(program);
+        alcove::cli::add_voxelize(program);
         program.parse(argc, argv);
         return done;
     } catch (const CLI::ParseError& error) {

@@ -1,18 +1,15 @@
 #include "common.h"
 #include "length.h"
+#include "voxelized.h"
 
 #include "alcove/errors.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/grid_io.h"
-#include "alcove/grid/voxelize.h"
-#include "alcove/mesh/read.h"
-#include "alcove/mesh/triangulate.h"
 #include "alcove/render/renderer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -26,8 +23,8 @@ constexpr double memory_limit = 4e9;
 
 struct Options {
     CommonOptions common;
-    std::string input, output, size = "1280x720", radius = "10%", method = "classic", eye, look_at,
-                               up = "0,1,0";
+    GridRequest grid;
+    std::string input, output, size = "1280x720", method = "traced", eye, look_at, up = "0,1,0";
     double fov = CameraOptions{}.fov;
     std::vector<std::string> passes;
 };
@@ -41,12 +38,6 @@ struct Scene {
     float radius; // unit space
     std::vector<std::string> warnings;
 };
-
-std::string extension(const std::string& file) {
-    std::string text = std::filesystem::path(file).extension().string();
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 Vec3d parse_vector(const std::string& text, const char* option) {
     Vec3d v;
@@ -110,7 +101,8 @@ CameraOptions camera_options(const Options& options) {
     return camera;
 }
 
-Scene scene_of_grid(const Options& options, const Length& radius) {
+Scene scene_of_grid(const Options& options) {
+    const Length radius = parse_length(options.grid.radius, "--radius");
     const GridStack stack = read_grids(options.input);
     const LevelStack field(stack);
     try {
@@ -126,31 +118,17 @@ Scene scene_of_grid(const Options& options, const Length& radius) {
     }
 }
 
-Scene scene_of_mesh(const Options& options, const Length& radius, nlohmann::ordered_json& seconds,
-                    Stopwatch& watch) {
-    if (radius.unit == Length::Unit::voxels)
-        throw UsageError(
-            "--radius in vx needs the voxel of a .vdb: for a mesh write 0.2 (scene units) or 10%");
-    const Mesh mesh = read_mesh(options.input);
-    const Triangulation triangulation = triangulate(mesh);
-    const Frame frame = frame_of(mesh.box());
-    seconds["read"] = watch.lap();
-
-    VoxelizeOptions grid;
-    grid.grid.radius = radius.to_unit(frame.diagonal);
-    ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");
-    grid.progress = std::ref(voxelizing);
-    const GridStack stack = voxelize(mesh, triangulation.triangles, grid);
+Scene scene_of_mesh(const Options& options, nlohmann::ordered_json& seconds) {
+    VoxelizedMesh input = read_and_voxelize(options.input, options.grid, options.common, seconds);
     std::vector<Vec3d> points;
-    std::copy_if(mesh.positions.begin(), mesh.positions.end(), std::back_inserter(points), is_finite);
-    std::vector<std::string> warnings = mesh.warnings;
-    warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
-    return {{LevelStack(stack), frame, mesh.box(), stack.sign == Sign::sheet},
+    std::copy_if(input.mesh.positions.begin(), input.mesh.positions.end(), std::back_inserter(points),
+                 is_finite);
+    return {{LevelStack(input.stack), input.frame, input.mesh.box(), input.stack.sign == Sign::sheet},
             std::move(points),
-            stack.levels.front().voxel * frame.diagonal,
-            stack.levels.size(),
-            grid.grid.radius,
-            std::move(warnings)};
+            input.stack.levels.front().voxel * input.frame.diagonal,
+            input.stack.levels.size(),
+            input.radius,
+            std::move(input.warnings)};
 }
 
 nlohmann::ordered_json triple(const Vec3d& v) {
@@ -172,14 +150,13 @@ void run(const Options& options) {
         throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which holds all");
     const ImageSize size = parse_size(options.size);
     const CameraOptions wanted = camera_options(options);
-    const Length radius = parse_length(options.radius, "--radius");
     RenderOptions rendering;
     if (options.method != "none")
         rendering.method = &find_method(options.method);
 
-    const Scene scene = extension(options.input) == ".vdb" ? scene_of_grid(options, radius)
-                                                           : scene_of_mesh(options, radius, seconds, watch);
-    seconds["grid"] = watch.lap();
+    const Scene scene =
+        extension(options.input) == ".vdb" ? scene_of_grid(options) : scene_of_mesh(options, seconds);
+    watch.lap();
 
     const Camera camera = make_camera(wanted, scene.points, size);
     rendering.lighting = studio_lighting(camera, wanted.up);
@@ -243,9 +220,8 @@ void add_render(CLI::App& program) {
     verb->add_option("-o,--output", options->output, "Image to write (exr with all passes, or png)")
         ->required();
     verb->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
-    verb->add_option("--radius", options->radius, "How far occluders count: 0.2, 10% or inf")
-        ->type_name("LEN")
-        ->capture_default_str();
+    add_radius_option(*verb, options->grid,
+                      "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
     verb->add_option("--method", options->method, "Estimator, or none")
         ->type_name("NAME")
         ->capture_default_str();
@@ -259,7 +235,11 @@ void add_render(CLI::App& program) {
     verb->add_option("--fov", options->fov, "Degrees across the width")
         ->type_name("DEG")
         ->capture_default_str();
+    add_grid_options(*verb, options->grid);
     add_common_options(*verb, options->common);
+    verb->footer("Examples:\n"
+                 "  alcove render scan.ply -o scan.png\n"
+                 "  alcove render scan.vdb -o scan.exr --size 1920x1080 --eye 1,1,3 --look-at 0,0,0\n");
     verb->callback([options] { run(*options); });
 }
 

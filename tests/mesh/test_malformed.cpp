@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(Files, Malformed, testing::ValuesIn(damages()), [](cons
 
 using Unreadable = ScratchFiles;
 
-TEST_F(Unreadable, AFolderIsNamedAndAMissingFileIsNoInputError) {
+TEST_F(Unreadable, AFolderAndAMissingFileAreNamed) {
     std::filesystem::create_directory(path("folder.stl"));
     try {
         read_mesh(path("folder.stl"));
@@ -272,7 +272,7 @@ TEST_F(Unreadable, AFolderIsNamedAndAMissingFileIsNoInputError) {
     try {
         read_mesh(path("none.ply"));
         FAIL();
-    } catch (const IoError& error) {
+    } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("none.ply: cannot be opened: No such file"),
                   std::string::npos);
     }

@@ -1,8 +1,8 @@
 #include "alcove/grid/grid_io.h"
 
+#include "alcove/atomic_file.h"
 #include "alcove/errors.h"
 #include "alcove/grid/vdb.h"
-#include "alcove/mesh/atomic_file.h"
 #include "alcove/parallel.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::string level_name(std::size_t level) {
 std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file))
-        throw IoError(fmt::format("{}: cannot be opened for reading", file.string()));
+        refuse(file, "cannot be opened for reading: check the name");
     std::vector<FloatGrid::Ptr> grids;
     try {
         openvdb::initialize();

@@ -32,7 +32,7 @@ struct Descriptor {
 FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
     const Descriptor input{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
     if (input.number < 0)
-        fail_io(file, "cannot be opened");
+        throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno) + "; check the name");
     struct stat status {};
     if (::fstat(input.number, &status) != 0)
         fail_io(file, "cannot be read");

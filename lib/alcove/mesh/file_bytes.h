@@ -12,7 +12,7 @@ namespace alcove {
 class FileBytes {
   public:
     /// Reads everything at once; regular files and pipes. \throw InputError for a folder, a device or an
-    /// empty file, IoError if the file cannot be opened or read.
+    /// empty file, IoError if the file cannot be read.
     explicit FileBytes(const std::filesystem::path& file);
     /// Takes the bytes as if they had been read from `file`.
     FileBytes(const std::filesystem::path& file, std::string_view bytes);

@@ -19,9 +19,9 @@ struct Attribute {
     std::vector<float> values;
 };
 
-/// Vertices and faces keep the count and order of the file, whatever is wrong with them: non-finite vertices stay
-/// in place, faces of fewer than three corners stay polygons, coincident vertices stay apart. Stages that need
-/// sound geometry (triangulate, vertex_normals, voxelize) leave the rest out and count it.
+/// Vertices and faces keep the count and order of the file, whatever is wrong with them: non-finite vertices
+/// stay in place, faces of fewer than three corners stay polygons, coincident vertices stay apart. Stages
+/// that need sound geometry (triangulate, vertex_normals, voxelize) leave the rest out and count it.
 struct Mesh {
     std::vector<Vec3d> positions;                 ///< scene units
     std::vector<Vec3> normals;                    ///< empty, or one a vertex: the file's, unit length or zero
@@ -45,8 +45,8 @@ struct Mesh {
     /// The box around all finite vertices.
     Box box() const;
 
-    /// Adds the attribute, or replaces the one of that name. \throw std::invalid_argument if its length is not
-    /// components × vertices.
+    /// Adds the attribute, or replaces the one of that name. \throw std::invalid_argument if its length is
+    /// not components × vertices.
     void set_attribute(Attribute attribute);
     const Attribute* find_attribute(std::string_view name) const;
 };

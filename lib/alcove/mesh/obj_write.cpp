@@ -1,4 +1,4 @@
-#include "alcove/mesh/atomic_file.h"
+#include "alcove/atomic_file.h"
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/obj_document.h"
 #include "alcove/mesh/ply_document.h"

@@ -31,7 +31,7 @@ namespace alcove {
 /// \throw InputError naming file, line or byte and mend: unknown format, damaged header, counts larger than
 /// what is
 ///        left of the file, an index out of range, a token that is no number, an early end, no faces at all.
-/// \throw IoError if the file cannot be opened or read. \throw LimitError if it does not fit in memory or
+/// \throw IoError if the file cannot be read. \throw LimitError if it does not fit in memory or
 /// holds 2^32
 ///        vertices or corners.
 Mesh read_mesh(const std::filesystem::path& file);

@@ -12,6 +12,10 @@ struct WriteOptions {
     std::vector<std::string> comments; ///< provenance: one line each
 };
 
+/// Whether write_mesh() knows the extension of `file`. \throw IoError if nothing can be written there: asked
+/// before long work, so that it is not in vain.
+bool can_write_mesh(const std::filesystem::path& file);
+
 /// Writes to a temporary file beside `file` and renames it, so that a failure leaves the old file as it was.
 ///
 /// PLY: binary little endian. All elements, properties and comments the input held, byte for byte where the

@@ -1,7 +1,7 @@
 #include "alcove/render/image.h"
 
+#include "alcove/atomic_file.h"
 #include "alcove/errors.h"
-#include "alcove/mesh/atomic_file.h"
 #include "alcove/render/shading.h"
 
 #include <OpenEXR/ImfChannelList.h>

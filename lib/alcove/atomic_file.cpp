@@ -1,4 +1,4 @@
-#include "alcove/mesh/atomic_file.h"
+#include "alcove/atomic_file.h"
 
 #include "alcove/errors.h"
 

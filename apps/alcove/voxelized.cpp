@@ -1,0 +1,93 @@
+#include "voxelized.h"
+
+#include "length.h"
+
+#include "alcove/errors.h"
+#include "alcove/mesh/read.h"
+
+#include <fmt/format.h>
+
+namespace alcove::cli {
+namespace {
+
+SignChoice parse_sign(const std::string& text) {
+    if (text == "auto")
+        return SignChoice::automatic;
+    if (text == "signed")
+        return SignChoice::solid;
+    if (text == "unsigned")
+        return SignChoice::sheet;
+    throw UsageError(fmt::format("--sign takes auto, signed or unsigned, not '{}'", text));
+}
+
+}
+
+void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& description) {
+    verb.add_option("--radius", request.radius, description)->type_name("LEN")->capture_default_str();
+}
+
+void add_grid_options(CLI::App& verb, GridRequest& request) {
+    verb.add_option("--voxel", request.voxel,
+                    "Edge of the finest voxel: 0.2, 0.5%, or auto (1/256 of the diagonal, "
+                    "finer for small radii)")
+        ->type_name("LEN")
+        ->capture_default_str();
+    verb.add_option("--sign", request.sign,
+                    "auto: as the mesh is; signed: a solid; unsigned: open on both sides")
+        ->type_name("SIGN")
+        ->capture_default_str();
+}
+
+VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,
+                                const CommonOptions& common, nlohmann::ordered_json& seconds) {
+    // What is wrong on the command line is said before any work.
+    const Length radius = parse_length(request.radius, "--radius");
+    const bool automatic = request.voxel == "auto";
+    const Length voxel = automatic ? Length{} : parse_length(request.voxel, "--voxel");
+    if (voxel.unit == Length::Unit::voxels)
+        throw UsageError("--voxel is what vx stands for: give it as 0.2 (scene units) or 0.5%");
+    if (automatic && radius.unit == Length::Unit::voxels)
+        throw UsageError(
+            "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
+    VoxelizeOptions options;
+    options.sign = parse_sign(request.sign);
+    options.grid.outer_band = request.band;
+
+    Stopwatch watch;
+    VoxelizedMesh result;
+    result.mesh = read_mesh(input);
+    result.warnings = result.mesh.warnings;
+    result.frame = frame_of(result.mesh.box());
+    seconds["read"] = watch.lap();
+
+    Triangulation triangulation = triangulate(result.mesh);
+    result.triangles = std::move(triangulation.triangles);
+    options.grid.voxel = automatic ? 0.0f : voxel.to_unit(result.frame.diagonal);
+    options.grid.radius = radius.to_unit(result.frame.diagonal, options.grid.voxel);
+    result.radius = options.grid.radius;
+    ProgressMeter meter(common.progress_mode(), "voxelizing");
+    options.progress = std::ref(meter);
+    try {
+        result.stack = voxelize(result.mesh, result.triangles, options);
+    } catch (const InputError& error) {
+        throw InputError(input + ": " + error.what());
+    } catch (const LimitError& error) {
+        throw LimitError(input + ": " + error.what());
+    }
+    result.warnings.insert(result.warnings.end(), result.stack.warnings.begin(), result.stack.warnings.end());
+    seconds["grid"] = watch.lap();
+    return result;
+}
+
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t at = digits.size(); at > 3;)
+        digits.insert(at -= 3, 1, ',');
+    return digits;
+}
+
+std::string_view name_of(Sign sign) {
+    return sign == Sign::solid ? "solid" : "sheet";
+}
+
+}

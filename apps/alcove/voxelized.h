@@ -1,0 +1,41 @@
+/// The first half of every verb on meshes: read, triangulate, voxelize.
+#pragma once
+
+#include "common.h"
+
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/triangulate.h"
+
+namespace alcove::cli {
+
+/// What a user may say of the grid.
+struct GridRequest {
+    std::string radius = "10%", voxel = "auto", sign = "auto";
+    float band = GridOptions{}.outer_band;
+};
+
+void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& description);
+
+/// Adds --voxel and --sign.
+void add_grid_options(CLI::App& verb, GridRequest& request);
+
+struct VoxelizedMesh {
+    Mesh mesh;
+    std::vector<Triangle> triangles;
+    Frame frame;
+    float radius = 0.0f; ///< unit space
+    GridStack stack;
+    std::vector<std::string> warnings; ///< of reading and voxelizing
+};
+
+/// Puts `read` and `grid` into `seconds`. \throw UsageError, and what read_mesh() and voxelize() throw.
+VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,
+                                const CommonOptions& common, nlohmann::ordered_json& seconds);
+
+/// `3,412 vertices`: the thousands apart.
+std::string grouped(std::size_t number);
+
+/// The name of a sign for people.
+std::string_view name_of(Sign sign);
+
+}
