@@ -156,32 +156,6 @@ void Band::grow(BandWidth width) {
     evaluate(all, {2.0f * width.outer, 2.0f * width.inner}, frontier);
 }
 
-double Band::contradictions() const {
-    std::vector<const FloatTree::LeafNodeType*> leaves;
-    distance_->getNodes(leaves);
-    std::atomic<std::size_t> crossings{0}, false_crossings{0};
-    parallel_for(leaves.size(), 16, [&](std::size_t begin, std::size_t end) {
-        openvdb::tree::ValueAccessor<const FloatTree> distance(*distance_);
-        std::size_t crossed = 0, wrong = 0;
-        for (std::size_t l = begin; l < end; ++l)
-            for (auto voxel = leaves[l]->cbeginValueOn(); voxel; ++voxel)
-                for (const Coord step : {Coord(1, 0, 0), Coord(0, 1, 0), Coord(0, 0, 1)}) {
-                    float other;
-                    if (!distance.probeValue(voxel.getCoord() + step, other) ||
-                        (other < 0.0f) == (*voxel < 0.0f))
-                        continue;
-                    ++crossed;
-                    // A surface between two voxels a step apart is no further than that step from both
-                    // together.
-                    if (std::fabs(other) + std::fabs(*voxel) > 1.1f)
-                        ++wrong;
-                }
-        crossings += crossed;
-        false_crossings += wrong;
-    });
-    return crossings == 0 ? 0.0 : static_cast<double>(false_crossings) / static_cast<double>(crossings);
-}
-
 Band Band::coarser(BandWidth width) const {
     auto seeds = std::make_shared<Int32Tree>(no_triangle);
     openvdb::tree::ValueAccessor<Int32Tree> writer(*seeds);
@@ -217,6 +191,30 @@ openvdb::FloatGrid::Ptr Band::level_set(Sign sign, BandWidth width, double value
     auto grid = openvdb::FloatGrid::create(tree);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     return grid;
+}
+
+double contradictions(const openvdb::FloatGrid& solid, double scene_voxel) {
+    std::vector<const FloatTree::LeafNodeType*> leaves;
+    solid.tree().getNodes(leaves);
+    std::atomic<std::size_t> crossings{0}, false_crossings{0};
+    parallel_for(leaves.size(), 16, [&](std::size_t begin, std::size_t end) {
+        const auto values = solid.getConstAccessor();
+        std::size_t crossed = 0, wrong = 0;
+        for (std::size_t l = begin; l < end; ++l)
+            for (auto voxel = leaves[l]->cbeginValueAll(); voxel; ++voxel)
+                for (int face = 0; face < 6; ++face) {
+                    Coord next = voxel.getCoord();
+                    next[face / 2] += face % 2 ? 1 : -1;
+                    const float other = values.getValue(next);
+                    if ((other < 0.0f) == (*voxel < 0.0f))
+                        continue;
+                    ++crossed;
+                    wrong += std::fabs(other) + std::fabs(*voxel) > 1.1 * scene_voxel;
+                }
+        crossings += crossed;
+        false_crossings += wrong;
+    });
+    return crossings == 0 ? 0.0 : static_cast<double>(false_crossings) / static_cast<double>(crossings);
 }
 
 }

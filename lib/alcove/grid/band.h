@@ -31,10 +31,6 @@ class Band {
     /// Grows the band further.
     void widen(BandWidth width) { grow(width); }
 
-    /// The share of sign changes between neighbouring voxels that no surface lies between: 0 for a solid,
-    /// large where the surface is open, nested or overlaps itself.
-    double contradictions() const;
-
     /// The band of twice the voxel: seeded from this one, then grown to the same width in its own voxels.
     Band coarser(BandWidth width) const;
 
@@ -50,5 +46,11 @@ class Band {
     openvdb::Int32Tree::Ptr nearest_;
     openvdb::FloatTree::Ptr distance_; // in voxels; the topology of nearest_
 };
+
+/// The share of sign changes between neighbouring voxels that no surface lies between, for a surface between
+/// two voxels is no further than a voxel from both together: 0 for a solid, large where the surface is open,
+/// nested, inside out or overlaps itself. Reads every active voxel and its neighbours, filled inside
+/// included.
+double contradictions(const openvdb::FloatGrid& solid, double scene_voxel);
 
 }

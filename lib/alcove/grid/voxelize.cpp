@@ -41,24 +41,26 @@ openvdb::Int32Tree::Ptr rasterize(const Surface& surface) {
     return nearest.treePtr();
 }
 
-Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest,
+Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest, const BandWidth& width,
                  std::vector<std::string>& warnings) {
     if (choice == SignChoice::sheet)
         return Sign::sheet;
-    const double contradictions = finest.contradictions();
-    if (choice == SignChoice::solid) {
-        if (contradictions > tolerated_contradictions)
-            warnings.push_back(
-                fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the sign changes "
-                            "are not at its surface: use --sign auto",
-                            100.0 * contradictions));
-        return Sign::solid;
+    if (choice == SignChoice::automatic) {
+        // The wall of a cavity counts as inverted too: as a sheet it is as right.
+        const Closedness surface = closedness(mesh);
+        if (!surface.closed() || surface.inverted_components > 0)
+            return Sign::sheet;
     }
-    if (contradictions > tolerated_contradictions)
+    const double wrong = contradictions(*finest.level_set(Sign::solid, width, 1.0), 1.0);
+    if (wrong <= tolerated_contradictions)
+        return Sign::solid;
+    if (choice == SignChoice::automatic)
         return Sign::sheet;
-    // The wall of a cavity counts as inverted too: as a sheet it is as right.
-    const Closedness surface = closedness(mesh);
-    return surface.closed() && surface.inverted_components == 0 ? Sign::solid : Sign::sheet;
+    warnings.push_back(
+        fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the sign changes are not "
+                    "at its surface: use --sign auto",
+                    100.0 * wrong));
+    return Sign::solid;
 }
 
 /// Index (0, 0, 0) of all levels: below and left of every band, so that a tree has one root node and not
@@ -103,7 +105,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     const BandWidth both{plan.outer_band, plan.outer_band};
     const BandWidth solid{plan.outer_band, std::max(plan.inner_band, 2.0f)};
     Band band(surface, 1, rasterize(surface), sheet ? both : solid);
-    stack.sign = choose_sign(options.sign, mesh, band, stack.warnings);
+    stack.sign = choose_sign(options.sign, mesh, band, solid, stack.warnings);
     if (stack.sign == Sign::sheet && !sheet)
         band.widen(both);
     for (int level = 0; level < plan.levels; ++level) {
