@@ -13,7 +13,7 @@ constexpr std::size_t block = 256;
 LevelStack::LevelStack(const GridStack& stack) {
     auto levels = std::make_shared<std::vector<Bricks>>();
     for (const LevelSet& level : stack.levels)
-        levels->emplace_back(level, static_cast<float>(1.0 / stack.frame.diagonal));
+        levels->emplace_back(level, static_cast<float>(stack.value_unit / stack.frame.diagonal));
     levels_ = std::move(levels);
 }
 

@@ -75,7 +75,18 @@ void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
                                  grid.getName(), bad.load()));
 }
 
-LevelSet level_of(const FloatGrid::Ptr& grid, const Frame& frame, const std::filesystem::path& file) {
+/// Every value and the background times a power of two.
+void scale_values(FloatGrid& grid, double factor) {
+    if (factor == 1.0)
+        return;
+    const auto scale = static_cast<float>(factor);
+    grid.tree().root().setBackground(grid.background() * scale, /*updateChildNodes=*/false);
+    for (auto value = grid.beginValueAll(); value; ++value)
+        value.setValue(*value * scale);
+}
+
+LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std::filesystem::path& file) {
+    const Frame& frame = stack.frame;
     const auto& transform = grid->transform();
     const auto map = transform.baseMap()->getAffineMap()->getMat4();
     const double size = map(0, 0);
@@ -94,6 +105,7 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const Frame& frame, const std::fil
     level.outer_band = static_cast<float>(grid->background() / size);
     level.active_voxels = grid->activeVoxelCount();
     level.bytes = grid->memUsage();
+    scale_values(*grid, 1.0 / stack.value_unit);
     level.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
     return level;
 }
@@ -113,10 +125,11 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     stack.frame.center = {number(finest, "alcove:center_x"), number(finest, "alcove:center_y"),
                           number(finest, "alcove:center_z")};
     stack.frame.diagonal = number(finest, "alcove:diagonal");
+    stack.value_unit = value_unit_of(stack.frame);
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
-        LevelSet level = level_of(grid, stack.frame, file);
+        LevelSet level = level_of(grid, stack, file);
         level.voxel = static_cast<float>(number(*grid, "alcove:voxel"));
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         if (!(level.voxel > 0.0f) || !(level.outer_band >= 3.0f))
@@ -142,17 +155,30 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     box.add({scene.max().x(), scene.max().y(), scene.max().z()});
     GridStack stack;
     stack.frame = frame_of(box);
-    stack.levels.push_back(level_of(*chosen, stack.frame, file));
+    stack.value_unit = value_unit_of(stack.frame);
+    stack.levels.push_back(level_of(*chosen, stack, file));
     return stack;
 }
 
 }
 
 void write_grids(const GridStack& stack, const std::filesystem::path& file) {
+    // OpenVDB takes no transform smaller, and floats hold no distance larger.
+    if (const double voxel = stack.levels.front().voxel * stack.frame.diagonal; voxel < 1e-10 || voxel > 1e30)
+        throw IoError(
+            fmt::format("{}: a .vdb holds voxels from 1e-10 to 1e30 scene units, these are {:.3g}: scale the "
+                        "scene",
+                        file.string(), voxel));
     openvdb::GridCPtrVec grids;
     for (std::size_t i = 0; i < stack.levels.size(); ++i) {
         const LevelSet& level = stack.levels[i];
-        auto grid = level.grid->grid->copy();
+        const auto grid = level.grid->grid->deepCopy();
+        scale_values(*grid, stack.value_unit);
+        const auto transform =
+            openvdb::math::Transform::createLinearTransform(double(level.voxel) * stack.frame.diagonal);
+        const Vec3d origin = stack.frame.to_scene(level.origin);
+        transform->postTranslate({origin.x, origin.y, origin.z});
+        grid->setTransform(transform);
         grid->setName(level_name(i));
         grid->setCreator(creator);
         grid->setGridClass(openvdb::GRID_LEVEL_SET);
@@ -167,7 +193,7 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         put("alcove:outer_band", level.outer_band);
         grid->insertMeta("alcove:sign",
                          openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
-        grids.push_back(std::move(grid));
+        grids.push_back(grid);
     }
     AtomicFile out(file);
     try {

@@ -23,8 +23,7 @@ enum class Sign {
     sheet,
 };
 
-/// One narrow-band level set. Its values are scene units, its index space maps to the scene by the grid's own
-/// transform; `voxel`, `origin` say the same in unit space: unit = origin + voxel · index.
+/// One narrow-band level set. Where its index space lies in unit space: unit = origin + voxel · index.
 struct LevelSet {
     std::shared_ptr<const VdbGrid> grid;
     float voxel = 0.0f;      ///< edge of a voxel, unit space
@@ -35,8 +34,12 @@ struct LevelSet {
 };
 
 /// Levels from finest to coarsest. Copies share the grids.
+///
+/// In memory values are scene units divided by `value_unit`, a power of two near the diagonal: of a size that
+/// floats and OpenVDB are good at, and yet written as scene units and read again to the same bits.
 struct GridStack {
     Frame frame;
+    double value_unit = 1.0;
     Sign sign = Sign::solid;
     std::vector<LevelSet> levels;
     std::vector<std::string> warnings; ///< what the surface lost on its way into the grid, in words
@@ -48,5 +51,8 @@ struct GridStack {
         return sum;
     }
 };
+
+/// The largest power of two that is not above the diagonal.
+double value_unit_of(const Frame& frame);
 
 }

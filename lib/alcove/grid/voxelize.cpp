@@ -70,19 +70,15 @@ Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
     return frame.to_unit(box.min) - margin;
 }
 
-LevelSet finish(const Band& band, Sign sign, const LevelPlan& plan, const Frame& frame, const Vec3& origin,
+LevelSet finish(const Band& band, const LevelPlan& plan, const GridStack& stack, const Vec3& origin,
                 int level) {
     LevelSet set;
     set.origin = origin;
     set.voxel = std::ldexp(plan.voxel, level);
     set.outer_band = plan.outer_band;
-    const double scene_voxel = double(set.voxel) * frame.diagonal;
-    const float inner = sign == Sign::solid ? plan.inner_band : sheet_thickness;
-    auto grid = band.level_set(sign, {plan.outer_band, inner}, scene_voxel);
-    auto transform = openvdb::math::Transform::createLinearTransform(scene_voxel);
-    const Vec3d corner = frame.to_scene(origin);
-    transform->postTranslate({corner.x, corner.y, corner.z});
-    grid->setTransform(transform);
+    const float inner = stack.sign == Sign::solid ? plan.inner_band : sheet_thickness;
+    const double value_scale = double(set.voxel) * stack.frame.diagonal / stack.value_unit;
+    const auto grid = band.level_set(stack.sign, {plan.outer_band, inner}, value_scale);
     set.active_voxels = grid->activeVoxelCount();
     set.bytes = grid->memUsage();
     set.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
@@ -95,6 +91,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     const LevelPlan plan = plan_levels(mesh, triangles, options.grid);
     GridStack stack;
     stack.frame = frame_of(mesh.box());
+    stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(mesh.box(), stack.frame, plan);
     const Surface surface(mesh, triangles, stack.frame, Vec3d(origin), plan.voxel);
     if (surface.size() == 0)
@@ -111,7 +108,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     for (int level = 0; level < plan.levels; ++level) {
         if (level > 0)
             band = band.coarser(stack.sign == Sign::sheet ? both : solid);
-        stack.levels.push_back(finish(band, stack.sign, plan, stack.frame, origin, level));
+        stack.levels.push_back(finish(band, plan, stack, origin, level));
         if (options.progress)
             options.progress(static_cast<double>(level + 1) / plan.levels);
     }

@@ -1,0 +1,170 @@
+#include "alcove/grid/grid_io.h"
+
+#include "alcove/errors.h"
+#include "alcove/field/level_stack.h"
+#include "alcove/grid/vdb.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/triangulate.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+#include <openvdb/io/File.h>
+#include <openvdb/tools/LevelSetSphere.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+
+namespace alcove {
+namespace {
+
+class GridFile : public testing::Test {
+  protected:
+    GridFile()
+        : folder_(std::filesystem::temp_directory_path() /
+                  ("alcove_grid_" + std::to_string(std::random_device{}()))) {
+        std::filesystem::create_directory(folder_);
+        openvdb::initialize();
+    }
+    ~GridFile() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+
+    void write_foreign(const openvdb::GridBase::Ptr& grid, const std::string& name,
+                       std::uint32_t compression) const {
+        openvdb::io::File file(path(name).string());
+        file.setCompression(compression);
+        file.write(openvdb::GridPtrVec{grid});
+    }
+
+    std::string refusal(const std::string& name) const {
+        try {
+            read_grids(path(name));
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "read";
+    }
+
+  private:
+    std::filesystem::path folder_;
+};
+
+GridStack sphere_stack(double scale = 1.0, const Vec3d& move = Vec3d(0.0)) {
+    Mesh mesh;
+    test::add_part(mesh, test::sphere_mesh(5), scale, move);
+    VoxelizeOptions options;
+    options.grid.voxel = 1.0f / 64.0f;
+    options.grid.radius = 0.2f;
+    return voxelize(mesh, triangulate(mesh).triangles, options);
+}
+
+TEST_F(GridFile, AStackComesBackToTheBit) {
+    const GridStack stack = sphere_stack(37.0, {1e4, -2e3, 5.5});
+    write_grids(stack, path("stack.vdb"));
+    const GridStack back = read_grids(path("stack.vdb"));
+    ASSERT_EQ(back.levels.size(), stack.levels.size());
+    EXPECT_EQ(back.sign, stack.sign);
+    EXPECT_EQ(back.frame.diagonal, stack.frame.diagonal);
+    EXPECT_EQ(back.frame.center, stack.frame.center);
+    const LevelStack a(stack), b(back);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> coordinate(-0.6f, 0.6f);
+    for (std::size_t l = 0; l < stack.levels.size(); ++l) {
+        EXPECT_EQ(back.levels[l].voxel, stack.levels[l].voxel);
+        EXPECT_EQ(back.levels[l].origin, stack.levels[l].origin);
+        EXPECT_EQ(back.levels[l].active_voxels, stack.levels[l].active_voxels);
+    }
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
+        EXPECT_EQ(a.map(p), b.map(p));
+    }
+}
+
+TEST_F(GridFile, OthersFindLevelSetsInSceneUnits) {
+    write_grids(sphere_stack(10.0, {100, 0, 0}), path("stack.vdb"));
+    openvdb::io::File file(path("stack.vdb").string());
+    file.open();
+    for (const char* name : {"surface", "surface_2", "surface_3"}) {
+        const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(name));
+        EXPECT_EQ(grid->getGridClass(), openvdb::GRID_LEVEL_SET);
+        EXPECT_EQ(grid->getCreator(), "Alcove");
+        const auto index = openvdb::Coord::round(grid->worldToIndex(openvdb::Vec3d(110, 0, 0)));
+        const openvdb::Vec3d centre = grid->indexToWorld(index);
+        EXPECT_NEAR(grid->tree().getValue(index), (centre - openvdb::Vec3d(100, 0, 0)).length() - 10.0,
+                    0.03 * grid->voxelSize().x());
+        EXPECT_LT(grid->tree().getValue(openvdb::Coord::round(grid->worldToIndex(openvdb::Vec3d(100, 0, 0)))),
+                  0.0f);
+    }
+}
+
+TEST_F(GridFile, ALevelSetOfAnotherProgramIsAField) {
+    const auto sphere =
+        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
+    write_foreign(sphere, "foreign.vdb", openvdb::io::COMPRESS_ZIP);
+    const GridStack stack = read_grids(path("foreign.vdb"));
+    ASSERT_EQ(stack.levels.size(), 1u);
+    const LevelStack field(stack);
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3d out = glm::normalize(Vec3d(normal(random), normal(random), normal(random)));
+        for (const double height : {-0.05, 0.0, 0.1, 0.19}) {
+            const Vec3d p = Vec3d(5, 6, 7) + (2.0 + height) * out;
+            EXPECT_NEAR(field.map(stack.frame.to_unit(p)) * stack.frame.diagonal, height, 0.05 * 0.05);
+        }
+    }
+}
+
+TEST_F(GridFile, TruncationIsFoundWhateverTheCompression) {
+    for (const std::uint32_t compression : {0u, 1u, 2u, 3u, 4u, 6u}) {
+        write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),
+                      "whole.vdb", compression);
+        std::ifstream in(path("whole.vdb"), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        for (int cut = 1; cut < 40; ++cut) {
+            std::ofstream(path("cut.vdb"), std::ios::binary)
+                << bytes.substr(0, bytes.size() * static_cast<std::size_t>(cut) / 40);
+            EXPECT_NE(refusal("cut.vdb"), "read") << compression << " " << cut;
+        }
+        std::ofstream(path("cut.vdb"), std::ios::binary) << bytes.substr(0, bytes.size() - 1);
+        EXPECT_NE(refusal("cut.vdb"), "read") << compression;
+    }
+}
+
+TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
+    std::ofstream(path("text.vdb")) << "this is no grid";
+    EXPECT_NE(refusal("text.vdb").find("no readable .vdb file"), std::string::npos);
+    EXPECT_NE(refusal("missing.vdb").find("cannot be opened"), std::string::npos);
+
+    const auto fog = openvdb::FloatGrid::create(0.0f);
+    fog->tree().setValue({0, 0, 0}, 1.0f);
+    write_foreign(fog, "fog.vdb", 0);
+    EXPECT_NE(refusal("fog.vdb").find("no level set"), std::string::npos);
+
+    const auto vectors = openvdb::Vec3SGrid::create();
+    write_foreign(vectors, "vectors.vdb", 0);
+    EXPECT_NE(refusal("vectors.vdb").find("no grid of floats"), std::string::npos);
+
+    const auto nan = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    nan->tree().setValue({10, 0, 0}, NAN);
+    write_foreign(nan, "nan.vdb", 0);
+    EXPECT_NE(refusal("nan.vdb").find("not finite"), std::string::npos);
+
+    const auto stretched = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    stretched->transform().preScale({1.0, 2.0, 1.0});
+    write_foreign(stretched, "stretched.vdb", 0);
+    EXPECT_NE(refusal("stretched.vdb").find("no cubes"), std::string::npos);
+}
+
+TEST_F(GridFile, AFailedWriteLeavesTheOldFile) {
+    const GridStack stack = sphere_stack();
+    write_grids(stack, path("old.vdb"));
+    const auto size = std::filesystem::file_size(path("old.vdb"));
+    EXPECT_THROW(write_grids(stack, path("no/such/folder.vdb")), IoError);
+    EXPECT_EQ(std::filesystem::file_size(path("old.vdb")), size);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 1);
+}
+
+}
+}
