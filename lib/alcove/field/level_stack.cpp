@@ -32,10 +32,12 @@ std::size_t LevelStack::level_for(float reach) const {
 }
 
 float LevelStack::map(const Vec3& p) const {
-    float distance = 0.0f;
+    // What a finer level could not reach is no nearer than that: behind a sheet the coarser one does not know.
+    float nearest = -any_reach, distance = 0.0f;
     for (const Bricks& level : *levels_) {
-        distance = level.map(p);
-        if (distance < level.usable())
+        distance = std::max(level.map(p), nearest);
+        nearest = level.usable();
+        if (distance < nearest)
             break;
     }
     return distance;
@@ -67,10 +69,11 @@ void LevelStack::escalate(const Points& points, float* distances) const {
             z[k] = points.z[far[k]];
         }
         const Bricks& bricks = (*levels_)[level];
+        const float nearest = (*levels_)[level - 1].usable();
         sample_bricks(bricks.view(), {x.data(), y.data(), z.data(), count}, values.data());
         std::size_t left = 0;
         for (std::size_t k = 0; k < count; ++k) {
-            distances[far[k]] = values[k];
+            distances[far[k]] = std::max(values[k], nearest);
             if (values[k] >= bricks.usable())
                 far[left++] = far[k];
         }

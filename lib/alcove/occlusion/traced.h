@@ -8,6 +8,31 @@
 
 namespace alcove {
 
+/// The heights along the normals from which rays may start: where the field itself answers at least
+/// `clearance`, at most `highest`. A surfel lies on the true surface, so beside the interpolated one of a
+/// grid, and the normal of a sharp edge leaves its faces slowly; a fixed height safe for all of them (a
+/// voxel) is the largest error of tracing through a grid, these are a tenth of it. Cost: 6 map() calls a
+/// surfel.
+template <Field F>
+void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest,
+                      float* heights) {
+    SurfelBatch::Values x, y, z, distances;
+    std::fill_n(heights, surfels.count, clearance);
+    for (int step = 0; step < 6; ++step) {
+        for (std::size_t i = 0; i < surfels.count; ++i) {
+            x[i] = surfels.x[i] + heights[i] * surfels.nx[i];
+            y[i] = surfels.y[i] + heights[i] * surfels.ny[i];
+            z[i] = surfels.z[i] + heights[i] * surfels.nz[i];
+        }
+        map_batch(field, Points{x.data(), y.data(), z.data(), surfels.count}, any_reach, distances.data());
+        for (std::size_t i = 0; i < surfels.count; ++i)
+            if (distances[i] < clearance)
+                heights[i] *= distances[i] > 0.25f * clearance ? clearance / distances[i] : 2.0f;
+        for (std::size_t i = 0; i < surfels.count; ++i)
+            heights[i] = std::min(heights[i], highest);
+    }
+}
+
 /// Visibility along `rays` directions, low-discrepancy, rotated for each surfel by a hash of its position:
 ///
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
@@ -23,11 +48,15 @@ struct Traced {
 
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, float* ao) const {
-        const float offset = std::max(1e-4f, resolution(field));
+        // In voxels for grids; for exact fields the contract of the reference, 1e-4 of the diagonal.
+        const float voxel = resolution(field);
+        const float clearance = std::max(0.1f * voxel, 1e-4f);
         TraceOptions options;
         options.far = radius;
-        options.hit_distance = 0.1f * offset;
-        options.shortest_step = 0.25f * offset;
+        options.hit_distance = 0.05f * clearance;
+        options.shortest_step = 2.5f * clearance;
+        SurfelBatch::Values heights;
+        clear_of_surface(field, surfels, clearance, 2.0f * std::max(voxel, clearance), heights.data());
 
         std::array<float, SurfelBatch::capacity> open{};
         RayBatch batch;
@@ -42,7 +71,7 @@ struct Traced {
         };
         for (std::size_t i = 0; i < surfels.count; ++i) {
             const Basis basis(surfels.normal(i));
-            const Vec3 origin = surfels.position(i) + offset * basis.normal;
+            const Vec3 origin = surfels.position(i) + heights[i] * basis.normal;
             const std::uint32_t h = hash(surfels.position(i), seed);
             const float shift_u = unit_interval(h), shift_v = unit_interval(hash(h));
             for (int r = 0; r < rays; ++r) {
