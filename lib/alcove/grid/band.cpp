@@ -168,17 +168,31 @@ Band Band::coarser(BandWidth width) const {
     return Band(*surface_, 2 * stride_, std::move(seeds), width);
 }
 
+bool Band::crossed(const openvdb::tree::ValueAccessor<const FloatTree>& distance, const Coord& behind) const {
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z) {
+                float other;
+                if (distance.probeValue(behind.offsetBy(x, y, z), other) && other >= 0.0f &&
+                    other < sheet_thickness)
+                    return true;
+            }
+    return false;
+}
+
 openvdb::FloatGrid::Ptr Band::level_set(Sign sign, BandWidth width, double value_scale) const {
     const auto scaled = [&](float voxels) { return static_cast<float>(voxels * value_scale); };
     auto tree = std::make_shared<FloatTree>(scaled(width.outer));
     std::vector<const FloatTree::LeafNodeType*> leaves;
     distance_->getNodes(leaves);
+    const openvdb::tree::ValueAccessor<const FloatTree> distance(*distance_);
     for (const auto* leaf : leaves) {
         FloatTree::LeafNodeType* out = nullptr;
         for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel) {
             float d = *voxel;
-            if (sign == Sign::sheet && std::fabs(d) >= sheet_thickness)
-                d = std::fabs(d);
+            if (sign == Sign::sheet && d < 0.0f &&
+                (d <= -sheet_thickness || !crossed(distance, voxel.getCoord())))
+                d = -d;
             if (d > width.outer || d < -width.inner)
                 continue;
             if (!out)

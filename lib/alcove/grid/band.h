@@ -40,6 +40,9 @@ class Band {
   private:
     void evaluate(const openvdb::MaskTree& targets, BandWidth width, openvdb::MaskTree& accepted);
     void grow(BandWidth width);
+    /// Whether the voxel behind a face is a corner of a cell that the face passes through.
+    bool crossed(const openvdb::tree::ValueAccessor<const openvdb::FloatTree>& distance,
+                 const openvdb::Coord& behind) const;
 
     const Surface* surface_;
     int stride_;
