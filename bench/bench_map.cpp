@@ -54,8 +54,8 @@ struct Scene {
         options.grid.voxel = voxel;
         options.grid.radius = 4.0f * voxel;
         stack = voxelize(mesh, triangles, options);
-        bricks =
-            std::make_unique<Bricks>(stack.levels.front(), static_cast<float>(stack.value_unit / stack.frame.diagonal));
+        bricks = std::make_unique<Bricks>(stack.levels.front(),
+                                          static_cast<float>(stack.value_unit / stack.frame.diagonal));
         surfels = make_surfels(mesh, triangles, stack.frame);
         for (const std::uint32_t i : spatial_order(surfels))
             sorted.push_back(surfels[i]);

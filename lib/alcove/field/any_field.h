@@ -19,6 +19,7 @@ class AnyField {
         self_->map_many(points, reach, distances);
     }
     float resolution() const { return self_->finest(); }
+    bool two_sided() const { return self_->both_sides(); }
 
   private:
     struct Interface {
@@ -26,6 +27,7 @@ class AnyField {
         virtual float map_one(const Vec3& p) const = 0;
         virtual void map_many(const Points& points, float reach, float* distances) const = 0;
         virtual float finest() const = 0;
+        virtual bool both_sides() const = 0;
     };
 
     template <class F>
@@ -36,6 +38,7 @@ class AnyField {
             map_batch(field, points, reach, distances);
         }
         float finest() const override { return alcove::resolution(field); }
+        bool both_sides() const override { return alcove::two_sided(field); }
         F field;
     };
 

@@ -45,6 +45,9 @@ struct Union {
     float resolution() const {
         return std::apply([](const auto&... part) { return std::max({alcove::resolution(part)...}); }, parts);
     }
+    bool two_sided() const {
+        return std::apply([](const auto&... part) { return (alcove::two_sided(part) || ...); }, parts);
+    }
 };
 
 /// A field placed by p' = rotation · (scale · p) + translation. Uniform scale keeps distances distances.
@@ -72,6 +75,7 @@ struct Transformed {
     }
 
     float resolution() const { return scale * alcove::resolution(field); }
+    bool two_sided() const { return alcove::two_sided(field); }
 
   private:
     Vec3 to_local(const Vec3& p) const { return glm::transpose(rotation) * (p - translation) / scale; }

@@ -61,4 +61,15 @@ float resolution(const F& field) {
         return 0.0f;
 }
 
+/// Whether both sides of the surface are air and the sign only tells a thin layer behind it (Sign::sheet).
+template <Field F>
+bool two_sided(const F& field) {
+    if constexpr (requires {
+                      { field.two_sided() } -> std::convertible_to<bool>;
+                  })
+        return field.two_sided();
+    else
+        return false;
+}
+
 }

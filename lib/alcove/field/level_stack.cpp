@@ -10,7 +10,7 @@ constexpr std::size_t block = 256;
 
 }
 
-LevelStack::LevelStack(const GridStack& stack) {
+LevelStack::LevelStack(const GridStack& stack) : two_sided_(stack.sign == Sign::sheet) {
     auto levels = std::make_shared<std::vector<Bricks>>();
     for (const LevelSet& level : stack.levels)
         levels->emplace_back(level, static_cast<float>(stack.value_unit / stack.frame.diagonal));
@@ -32,7 +32,8 @@ std::size_t LevelStack::level_for(float reach) const {
 }
 
 float LevelStack::map(const Vec3& p) const {
-    // What a finer level could not reach is no nearer than that: behind a sheet the coarser one does not know.
+    // What a finer level could not reach is no nearer than that: behind a sheet the coarser one does not
+    // know.
     float nearest = -any_reach, distance = 0.0f;
     for (const Bricks& level : *levels_) {
         distance = std::max(level.map(p), nearest);

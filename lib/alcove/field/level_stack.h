@@ -23,6 +23,8 @@ class LevelStack {
 
     /// Edge of the finest voxel.
     float resolution() const { return levels_->front().voxel(); }
+    /// Whether it is that of a sheet.
+    bool two_sided() const { return two_sided_; }
     /// Largest distance that is right.
     float reach() const { return levels_->back().usable(); }
     const std::vector<Bricks>& levels() const { return *levels_; }
@@ -33,6 +35,7 @@ class LevelStack {
     void escalate(const Points& points, float* distances) const;
 
     std::shared_ptr<const std::vector<Bricks>> levels_;
+    bool two_sided_;
 };
 
 }

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 namespace alcove {
 
@@ -14,6 +16,10 @@ struct TraceOptions {
     float hit_distance = 1e-4f; ///< the surface is reached where map() answers less
     float shortest_step = 1e-4f;
     int max_steps = 1024; ///< a ray that is not done by then is a miss
+    /// The negative side is air too, its distances are minus those to the surface, and the sign may also jump
+    /// where there is no surface: the surface is where the distance is small, or where its sign changes and
+    /// the way was long enough to have crossed it. Set for fields that are two_sided().
+    bool two_sided = false;
 };
 
 /// Rays as arrays, marched together: each round is one batched map().
@@ -38,14 +44,24 @@ struct RayBatch {
 /// Marches all rays of the batch. Cost: `steps` map() calls a ray.
 template <Field F>
 void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
-    RayBatch::Values x, y, z, distance;
+    RayBatch::Values x, y, z, distance, previous, stepped;
     std::array<std::uint16_t, RayBatch::capacity> active;
     std::size_t count = rays.count;
     for (std::size_t i = 0; i < count; ++i) {
         active[i] = static_cast<std::uint16_t>(i);
         rays.hit[i] = false;
         rays.steps[i] = 0;
+        previous[i] = stepped[i] = 0.0f;
     }
+    const auto meets = [&](std::size_t i, float d) {
+        if (!options.two_sided)
+            return d < options.hit_distance;
+        // A crossed surface is no further from both places together than they are apart, but for
+        // interpolation.
+        constexpr float tolerance = 1.2f;
+        return std::fabs(d) < options.hit_distance ||
+               (d * previous[i] < 0.0f && std::fabs(d) + std::fabs(previous[i]) < tolerance * stepped[i]);
+    };
     for (int step = 0; step < options.max_steps && count > 0; ++step) {
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t i = active[k];
@@ -57,12 +73,15 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
         std::size_t left = 0;
         for (std::size_t k = 0; k < count; ++k) {
             const std::uint16_t i = active[k];
+            const float d = distance[k];
             ++rays.steps[i];
-            if (distance[k] < options.hit_distance) {
+            if (meets(i, d)) {
                 rays.hit[i] = true;
                 continue;
             }
-            rays.travelled[i] += std::max(distance[k], options.shortest_step);
+            previous[i] = d;
+            stepped[i] = std::max(options.two_sided ? std::fabs(d) : d, options.shortest_step);
+            rays.travelled[i] += stepped[i];
             active[left] = i;
             left += rays.travelled[i] < options.far;
         }

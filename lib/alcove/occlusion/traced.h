@@ -55,6 +55,7 @@ struct Traced {
         options.far = radius;
         options.hit_distance = 0.05f * clearance;
         options.shortest_step = 2.5f * clearance;
+        options.two_sided = two_sided(field);
         SurfelBatch::Values heights;
         clear_of_surface(field, surfels, clearance, 2.0f * std::max(voxel, clearance), heights.data());
 
