@@ -122,6 +122,7 @@ bool is_ours(const FloatGrid& grid) {
 GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
     GridStack stack;
     const FloatGrid& finest = *grids.front();
+    stack.creator = creator;
     stack.frame.center = {number(finest, "alcove:center_x"), number(finest, "alcove:center_y"),
                           number(finest, "alcove:center_z")};
     stack.frame.diagonal = number(finest, "alcove:diagonal");
@@ -154,6 +155,7 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     box.add({scene.min().x(), scene.min().y(), scene.min().z()});
     box.add({scene.max().x(), scene.max().y(), scene.max().z()});
     GridStack stack;
+    stack.creator = (*chosen)->getCreator();
     stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
     stack.levels.push_back(level_of(*chosen, stack, file));

@@ -42,6 +42,7 @@ struct GridStack {
     double value_unit = 1.0;
     Sign sign = Sign::solid;
     std::vector<LevelSet> levels;
+    std::string creator; ///< the program that wrote the file these were read from, if it says so
     std::vector<std::string> warnings; ///< what the surface lost on its way into the grid, in words
 
     std::size_t bytes() const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace alcove {
@@ -33,6 +34,7 @@ struct Mesh {
     std::vector<Color> face_colors;               ///< empty, or one a face: the file's
     std::vector<Attribute> attributes;            ///< added values, written beside what the file held
     std::vector<std::string> warnings;            ///< what reading had to leave out, in words with counts
+    std::string_view format;                      ///< "PLY", "OBJ", "OFF", "STL"; empty if not from a file
     std::shared_ptr<const SourceDocument> source; ///< null for a mesh that was not read from a file
 
     std::size_t vertex_count() const { return positions.size(); }

@@ -12,26 +12,30 @@
 namespace alcove {
 namespace {
 
-using Reader = Mesh (*)(const FileBytes&);
+struct Format {
+    std::string_view name;
+    Mesh (*read)(const FileBytes&);
+};
+constexpr Format ply{"PLY", read_ply}, obj{"OBJ", read_obj}, off{"OFF", read_off}, stl{"STL", read_stl};
 
-Reader reader_of(const FileBytes& file) {
+const Format& format_of(const FileBytes& file) {
     if (begins_as_ply(file))
-        return read_ply;
+        return ply;
     if (begins_as_off(file))
-        return read_off;
+        return off;
     if (begins_as_stl(file))
-        return read_stl;
+        return stl;
     std::string extension = file.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".ply")
-        return read_ply;
+        return ply;
     if (extension == ".off")
-        return read_off;
+        return off;
     if (extension == ".stl")
-        return read_stl;
+        return stl;
     if (extension == ".obj" || begins_as_obj(file))
-        return read_obj;
+        return obj;
     file.fail("is no mesh of a known format; PLY, OBJ, OFF and STL can be read");
 }
 
@@ -53,7 +57,9 @@ void warn_of_odd_geometry(Mesh& mesh) {
 }
 
 Mesh read_bytes(const FileBytes& file) {
-    Mesh mesh = reader_of(file)(file);
+    const Format& format = format_of(file);
+    Mesh mesh = format.read(file);
+    mesh.format = format.name;
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
     if (mesh.face_count() == 0)
