@@ -12,17 +12,24 @@
 namespace alcove::cli {
 
 void add_common_options(CLI::App& verb, CommonOptions& options) {
-    static const std::map<std::string, ProgressMode> modes{{"auto", ProgressMode::automatic},
-                                                           {"bar", ProgressMode::bar},
-                                                           {"plain", ProgressMode::plain},
-                                                           {"none", ProgressMode::none}};
+    static const std::map<std::string_view, ProgressMode> modes{{"auto", ProgressMode::automatic},
+                                                                {"bar", ProgressMode::bar},
+                                                                {"plain", ProgressMode::plain},
+                                                                {"none", ProgressMode::none}};
     verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
     verb.add_flag("--json", options.json, "Print the result as one JSON object on stdout");
-    verb.add_option("--progress", options.progress,
-                    "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
-        ->transform(CLI::Transformer(modes).description(""))
+    verb.add_option_function<std::string>(
+            "--progress",
+            [&options](const std::string& mode) {
+                if (!modes.contains(mode))
+                    throw UsageError(
+                        fmt::format("--progress takes auto, bar, plain or none, not '{}'", mode));
+                options.progress = modes.at(mode);
+            },
+            "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
         ->option_text("MODE");
     verb.add_flag("--quiet", options.quiet, "Neither progress nor warnings");
+    verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
 }
 
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options) {

@@ -27,7 +27,7 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
 };
 
-/// Adds --threads, --json, --progress, --quiet to a verb.
+/// Adds --threads, --json, --progress, --quiet, --version to a verb.
 void add_common_options(CLI::App& verb, CommonOptions& options);
 
 /// Prints warnings to stderr, a line each, unless quiet.

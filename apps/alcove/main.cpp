@@ -1,9 +1,11 @@
+#include "command_line.h"
 #include "common.h"
 
 #include "alcove/errors.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -11,7 +13,10 @@ namespace {
 
 enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
 
-int complain(ExitCode code, const char* message) {
+/// One line, whatever the names in it hold.
+int complain(ExitCode code, std::string message) {
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
     fmt::print(stderr, "alcove: {}\n", message);
     return code;
 }
@@ -30,11 +35,13 @@ int main(int argc, char** argv) {
         alcove::cli::add_render(program);
         alcove::cli::add_voxelize(program);
         program.parse(argc, argv);
+        if (std::fflush(stdout) != 0)
+            return complain(failure, "stdout: cannot be written; is the disk full?");
         return done;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
             return program.exit(error);
-        return complain(usage, fmt::format("{}; see alcove --help", error.what()).c_str());
+        return complain(usage, alcove::cli::explain(program, error, {argv + 1, argv + argc}));
     } catch (const alcove::cli::UsageError& error) {
         return complain(usage, error.what());
     } catch (const alcove::InputError& error) {

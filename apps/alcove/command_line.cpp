@@ -1,0 +1,125 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace alcove::cli {
+namespace {
+
+std::size_t mistakes(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t(0));
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string guess(std::string_view typed, const std::vector<std::string>& names) {
+    const std::string meant = nearest(typed, names);
+    return meant.empty() ? meant : fmt::format(" (did you mean {}?)", meant);
+}
+
+std::vector<std::string> verbs_of(const CLI::App& program) {
+    std::vector<std::string> names;
+    for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(verb->get_name());
+    return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& verb) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : verb.get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    return names;
+}
+
+bool is_option(const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
+}
+
+std::string explain_verb(const CLI::App& program, const std::vector<std::string>& words) {
+    const std::vector<std::string> verbs = verbs_of(program);
+    const auto typed = std::find_if_not(words.begin(), words.end(), is_option);
+    if (typed != words.end())
+        return fmt::format("there is no verb '{}'{}; there are: {}", *typed, guess(*typed, verbs),
+                           fmt::join(verbs, ", "));
+    if (!words.empty())
+        return fmt::format("{} is no option of alcove itself; name a verb: {}", words.front(),
+                           fmt::join(verbs, ", "));
+    return fmt::format("a verb is needed: {}", fmt::join(verbs, ", "));
+}
+
+/// "Could not convert: --threads = -1", as CLI11 says it.
+std::string explain_conversion(const CLI::App& verb, const std::string& said) {
+    static const std::map<std::string, std::string> kinds{
+        {"UINT", "a whole number, 0 or more"}, {"INT", "a whole number"}, {"FLOAT", "a number"}};
+    const std::size_t name = said.find("--"), equals = said.find(" = ");
+    if (name == std::string::npos || equals == std::string::npos)
+        return said;
+    const std::string option = said.substr(name, equals - name);
+    const CLI::Option* known = verb.get_option_no_throw(option);
+    const auto kind = kinds.find(known ? known->get_type_name() : "");
+    return fmt::format("{} takes {}, not '{}'", option,
+                       kind == kinds.end() ? "another kind of value" : kind->second, said.substr(equals + 3));
+}
+
+}
+
+std::string nearest(std::string_view typed, const std::vector<std::string>& names) {
+    std::string best;
+    std::size_t fewest = typed.size() / 3 + 1;
+    for (const std::string& name : names)
+        if (const std::size_t count = mistakes(typed, name);
+            count <= fewest && (best.empty() || count < fewest)) {
+            fewest = count;
+            best = name;
+        }
+    return best;
+}
+
+std::string explain(const CLI::App& program, const CLI::ParseError& error,
+                    const std::vector<std::string>& words) {
+    const std::vector<CLI::App*> parsed = program.get_subcommands();
+    if (parsed.empty())
+        return explain_verb(program, words) + "; see alcove --help";
+    const CLI::App& verb = *parsed.front();
+    const std::string help = fmt::format("see alcove {} --help", verb.get_name());
+
+    const std::vector<std::string> extra = program.remaining(true);
+    const auto unknown = std::find_if(extra.begin(), extra.end(), is_option);
+    if (unknown != extra.end()) {
+        const std::string name = unknown->substr(0, unknown->find('='));
+        if (verb.get_option_no_throw(name) != nullptr)
+            return fmt::format("{0} belongs behind the verb: alcove {1} ... {0}; {2}", name, verb.get_name(),
+                               help);
+        return fmt::format("{} has no option {}{}; {}", verb.get_name(), name, guess(name, options_of(verb)),
+                           help);
+    }
+    const std::string said = error.what();
+    const std::string option = said.substr(0, said.find(':'));
+    if (error.get_name() == "ConversionError")
+        return fmt::format("{}; {}", explain_conversion(verb, said), help);
+    if (error.get_name() == "ArgumentMismatch")
+        return fmt::format("{} {}; {}", option,
+                           said.ends_with("missing") ? "needs a value behind it" : "is given more than once",
+                           help);
+    if (error.get_name() == "RequiredError" && !extra.empty())
+        return fmt::format("{} (did you mean -o {}?); {}", said, extra.front(), help);
+    if (!extra.empty())
+        return fmt::format("{} takes no further argument '{}'; {}", verb.get_name(), extra.front(), help);
+    return fmt::format("{}; {}", said, help);
+}
+
+}
