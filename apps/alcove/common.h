@@ -54,5 +54,6 @@ class Stopwatch {
 void add_bake(CLI::App& program);
 void add_render(CLI::App& program);
 void add_voxelize(CLI::App& program);
+void add_info(CLI::App& program);
 
 }

@@ -1,0 +1,100 @@
+#include "common.h"
+#include "facts.h"
+
+#include "alcove/errors.h"
+#include "alcove/field/level_stack.h"
+#include "alcove/grid/grid_io.h"
+#include "alcove/mesh/file_bytes.h"
+#include "alcove/mesh/read.h"
+#include "alcove/parallel.h"
+#include "alcove/render/subject.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <memory>
+
+namespace alcove::cli {
+namespace {
+
+struct Options {
+    CommonOptions common;
+    std::string input;
+};
+
+enum class Kind { mesh, grid, image };
+
+Kind kind_of(const std::string& file) {
+    using namespace std::string_view_literals;
+    std::array<char, 8> bytes{};
+    std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
+    const std::string_view begin(bytes.data(), bytes.size());
+    if (begin == " BDV\0\0\0\0"sv || file.ends_with(".vdb"))
+        return Kind::grid;
+    if (begin.starts_with("\x76\x2f\x31\x01"sv) || begin == "\x89PNG\r\n\x1a\n"sv)
+        return Kind::image;
+    return Kind::mesh;
+}
+
+Facts facts_of_grid(const std::string& file) {
+    const GridStack stack = read_grids(file);
+    const double scale = stack.frame.diagonal;
+    Facts facts;
+    facts.add("kind", "grid");
+    facts.add("creator", stack.creator, stack.creator.empty() ? "unknown" : stack.creator);
+    facts.add("written_by_alcove", stack.creator == "Alcove");
+    const bool sheet = stack.sign == Sign::sheet;
+    facts.add("sign", sheet ? "sheet" : "solid",
+              sheet ? "negative in a thin layer behind the faces only" : "negative inside");
+    try {
+        facts.add_box(outline(LevelStack(stack), stack.frame).box);
+    } catch (const InputError&) {
+        facts.add("box", nullptr, "none: no surface, the values never change their sign");
+    }
+    auto levels = nlohmann::ordered_json::array();
+    std::vector<std::string> lines;
+    for (const LevelSet& level : stack.levels) {
+        const double voxel = level.voxel * scale;
+        levels.push_back({{"voxel", voxel},
+                          {"active_voxels", level.active_voxels},
+                          {"bytes", level.bytes},
+                          {"band_voxels", level.outer_band},
+                          {"band", level.outer_band * voxel}});
+        lines.push_back(fmt::format("voxel {:.6g}, {} active, {:.1f} MB, band {:g} voxels = {:.6g}", voxel,
+                                    grouped(level.active_voxels), static_cast<double>(level.bytes) / 1e6,
+                                    level.outer_band, level.outer_band * voxel));
+    }
+    facts.add("diagonal", scale); // the unit of percentages, of the mesh where Alcove wrote the file
+    facts.add("levels", levels, lines);
+    facts.add("warnings", stack.warnings, stack.warnings);
+    return facts;
+}
+
+void run(const Options& options) {
+    const ThreadLimit limit(options.common.threads);
+    const Kind kind = kind_of(options.input);
+    if (kind == Kind::image)
+        throw InputError(
+            options.input +
+            ": is an image, not a mesh or grid; open it in an image viewer or give a mesh or a .vdb");
+    const Facts facts =
+        kind == Kind::grid ? facts_of_grid(options.input) : facts_of_mesh(read_mesh(options.input));
+    if (options.common.json)
+        print_json(facts.json(options.input));
+    else
+        fmt::print("{}", facts.text(options.input));
+}
+
+}
+
+void add_info(CLI::App& program) {
+    auto* verb = program.add_subcommand("info", "Tell what a mesh or grid holds and what is wrong with it");
+    auto options = std::make_shared<Options>();
+    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl) or grid (vdb)")->required();
+    add_common_options(*verb, options->common);
+    verb->footer("Example: alcove info model.ply");
+    verb->callback([options] { run(*options); });
+}
+
+}
