@@ -8,7 +8,6 @@
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/source.h"
 #include "alcove/mesh/write.h"
-#include "alcove/occlusion/catalog.h"
 
 #include <fmt/format.h>
 
@@ -54,7 +53,7 @@ bool wants_colors(const std::string& asked, const Mesh& mesh) {
 
 void run(const BakeOptions& options) {
     const ThreadLimit limit(options.common.threads);
-    const Method& method = find_method(options.method);
+    const Method& method = parse_method(options.method);
     const NormalSource normals = parse_normals(options.normals);
     const ColorEncoding encoding = parse_encoding(options.color_encoding);
     if (!options.color.empty() && options.color != "ao" && options.color != "none")

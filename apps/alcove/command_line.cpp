@@ -64,7 +64,7 @@ std::string explain_verb(const CLI::App& program, const std::vector<std::string>
 /// "Could not convert: --threads = -1", as CLI11 says it.
 std::string explain_conversion(const CLI::App& verb, const std::string& said) {
     static const std::map<std::string, std::string> kinds{
-        {"UINT", "a whole number, 0 or more"}, {"INT", "a whole number"}, {"FLOAT", "a number"}};
+        {"UINT", "a whole number, 0 or more"}, {"N", "a whole number in its range"}, {"DEG", "a number"}};
     const std::size_t name = said.find("--"), equals = said.find(" = ");
     if (name == std::string::npos || equals == std::string::npos)
         return said;
@@ -72,7 +72,8 @@ std::string explain_conversion(const CLI::App& verb, const std::string& said) {
     const CLI::Option* known = verb.get_option_no_throw(option);
     const auto kind = kinds.find(known ? known->get_type_name() : "");
     return fmt::format("{} takes {}, not '{}'", option,
-                       kind == kinds.end() ? "another kind of value" : kind->second, said.substr(equals + 3));
+                       kind == kinds.end() ? "a value of another kind" : kind->second,
+                       said.substr(equals + 3));
 }
 
 }

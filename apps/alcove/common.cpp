@@ -1,5 +1,7 @@
 #include "common.h"
 
+#include "alcove/errors.h"
+
 #include <fmt/format.h>
 
 #include <sys/resource.h>
@@ -36,7 +38,15 @@ void print_warnings(const std::vector<std::string>& warnings, const CommonOption
     if (options.quiet)
         return;
     for (const std::string& warning : warnings)
-        fmt::print(stderr, "alcove: warning: {}\n", warning);
+        std::fputs(fmt::format("alcove: warning: {}\n", warning).c_str(), stderr);
+}
+
+const Method& parse_method(const std::string& name) {
+    try {
+        return find_method(name);
+    } catch (const InputError& unknown) {
+        throw UsageError(unknown.what());
+    }
 }
 
 std::string extension(const std::string& file) {

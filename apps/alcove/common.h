@@ -3,6 +3,8 @@
 
 #include "progress.h"
 
+#include "alcove/occlusion/catalog.h"
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -30,8 +32,11 @@ struct CommonOptions {
 /// Adds --threads, --json, --progress, --quiet, --version to a verb.
 void add_common_options(CLI::App& verb, CommonOptions& options);
 
-/// Prints warnings to stderr, a line each, unless quiet.
+/// Prints warnings to stderr, a line each, unless quiet; where stderr takes nothing they are lost.
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
+
+/// The estimator of that name. \throw UsageError listing the known ones.
+const Method& parse_method(const std::string& name);
 
 /// The extension of a file's name in lower case, with its dot.
 std::string extension(const std::string& file);

@@ -17,7 +17,7 @@ enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
 int complain(ExitCode code, std::string message) {
     std::replace_if(
         message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-    fmt::print(stderr, "alcove: {}\n", message);
+    std::fputs(fmt::format("alcove: {}\n", message).c_str(), stderr);
     return code;
 }
 

@@ -19,7 +19,7 @@ ProgressMeter::ProgressMeter(ProgressMode mode, std::string label) : mode_(mode)
 
 ProgressMeter::~ProgressMeter() {
     if (shown_ && mode_ == ProgressMode::bar)
-        fmt::print(stderr, "\r\033[K");
+        std::fputs("\r\033[K", stderr);
 }
 
 void ProgressMeter::operator()(double done) {
@@ -37,11 +37,13 @@ void ProgressMeter::operator()(double done) {
     if (mode_ == ProgressMode::bar) {
         constexpr int width = 30;
         const int filled = static_cast<int>(done * width);
-        fmt::print(stderr, "\r\033[K{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", label_, "", filled, "",
-                   width - filled, 100.0 * done, left);
+        std::fputs(fmt::format("\r\033[K{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", label_, "", filled, "",
+                               width - filled, 100.0 * done, left)
+                       .c_str(),
+                   stderr);
         std::fflush(stderr);
     } else {
-        fmt::print(stderr, "{}: {:.0f} %, {}\n", label_, 100.0 * done, left);
+        std::fputs(fmt::format("{}: {:.0f} %, {}\n", label_, 100.0 * done, left).c_str(), stderr);
     }
 }
 

@@ -152,7 +152,7 @@ void run(const Options& options) {
     const CameraOptions wanted = camera_options(options);
     RenderOptions rendering;
     if (options.method != "none")
-        rendering.method = &find_method(options.method);
+        rendering.method = &parse_method(options.method);
 
     const Scene scene =
         extension(options.input) == ".vdb" ? scene_of_grid(options) : scene_of_mesh(options, seconds);

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace alcove::cli {
 namespace {
 
@@ -46,6 +48,8 @@ VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& req
     const Length voxel = automatic ? Length{} : parse_length(request.voxel, "--voxel");
     if (voxel.unit == Length::Unit::voxels)
         throw UsageError("--voxel is what vx stands for: give it as 0.2 (scene units) or 0.5%");
+    if (std::isinf(voxel.value))
+        throw UsageError("--voxel takes a finite length, not 'inf': write 0.2 (scene units) or 0.5%");
     if (automatic && radius.unit == Length::Unit::voxels)
         throw UsageError(
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
