@@ -1,0 +1,106 @@
+#include "program.h"
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace alcove::test {
+namespace {
+
+std::string contents(const std::filesystem::path& file) {
+    std::ifstream input(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(input), {}};
+}
+
+}
+
+const char* const cube_off = "OFF\n8 6 0\n"
+                             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                             "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 2 3 7 6\n4 1 2 6 5\n4 0 4 7 3\n";
+
+std::string real_mesh(const std::string& name) {
+    return std::string(ALCOVE_REAL_MESHES) + "/" + name;
+}
+
+ProgramTest::ProgramTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "alcove-cli-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    std::filesystem::create_directory(folder_ / "work");
+}
+
+ProgramTest::~ProgramTest() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+Outcome ProgramTest::run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), ALCOVE_PROGRAM);
+    std::vector<char*> words;
+    words.reserve(arguments.size() + 1);
+    for (std::string& argument : arguments)
+        words.push_back(argument.data());
+    words.push_back(nullptr);
+    const std::string work = folder_ / "work", out = folder_ / "out", err = folder_ / "err";
+
+    const pid_t child = ::fork();
+    if (child == 0) {
+        // Only what is safe between fork and exec.
+        ::close(STDIN_FILENO);
+        const int output = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        const int errors = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        ::dup2(output, STDOUT_FILENO);
+        ::dup2(errors, STDERR_FILENO);
+        if (largest_file_ > 0) {
+            const rlimit limit{largest_file_, largest_file_};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+            ::signal(SIGXFSZ, SIG_IGN);
+        }
+        if (::chdir(work.c_str()) == 0)
+            ::execv(words.front(), words.data());
+        ::_exit(127);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(out), contents(err)};
+}
+
+void ProgramTest::expect_refusal(const std::vector<std::string>& arguments, int code,
+                                 const std::vector<std::string>& parts) const {
+    std::string line = "alcove";
+    for (const std::string& argument : arguments)
+        line += " '" + argument + "'";
+    SCOPED_TRACE(line);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("alcove: ") && outcome.err.ends_with("\n")) << outcome.err;
+    for (const std::string& part : parts)
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << "'" << part << "' is not in: " << outcome.err;
+}
+
+std::string ProgramTest::write(const std::string& name, std::string_view bytes) const {
+    std::ofstream output(folder_ / "work" / name, std::ios::binary);
+    output.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return name;
+}
+
+std::string ProgramTest::bytes_of(const std::string& name) const {
+    return contents(folder_ / "work" / name);
+}
+
+std::vector<std::string> ProgramTest::files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "work"))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+}

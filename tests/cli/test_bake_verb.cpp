@@ -1,0 +1,148 @@
+#include "program.h"
+
+#include "alcove/mesh/ply_document.h"
+#include "alcove/mesh/read.h"
+
+#include <set>
+
+namespace alcove::test {
+namespace {
+
+using BakeVerb = ProgramTest;
+
+std::size_t count_of(const std::string& text, std::string_view part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+        ++count;
+    return count;
+}
+
+std::string header_of(const std::string& ply) {
+    return ply.substr(0, ply.find("end_header"));
+}
+
+TEST_F(BakeVerb, PrintsOneObjectWithEveryKey) {
+    const Outcome outcome = run({"bake", real_mesh("elephant.off"), "-o", "a.ply", "--json"});
+    ASSERT_EQ(outcome.code, done) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    const nlohmann::json result = outcome.json();
+    EXPECT_EQ(result.at("input"), real_mesh("elephant.off"));
+    EXPECT_EQ(result.at("vertices"), 2775);
+    EXPECT_EQ(result.at("faces"), 5558);
+    EXPECT_TRUE(result.at("method").is_string());
+    const double diagonal = read_mesh(real_mesh("elephant.off")).box().diagonal();
+    EXPECT_NEAR(result.at("radius").get<double>(), 0.1 * diagonal, 1e-6 * diagonal);
+    EXPECT_GT(result.at("voxel"), 0.0);
+    EXPECT_LT(result.at("voxel").get<double>(), 0.1 * diagonal);
+    EXPECT_GE(result.at("levels"), 1);
+    EXPECT_GT(result.at("grid_bytes"), 0);
+    EXPECT_TRUE(result.at("estimated_rmse").is_null() || result.at("estimated_rmse").is_number());
+    for (const char* phase : {"read", "grid", "occlusion", "write"})
+        EXPECT_GE(result.at("seconds").at(phase), 0.0) << phase;
+    EXPECT_GT(result.at("peak_rss_bytes"), 1 << 20);
+    EXPECT_TRUE(result.at("warnings").empty());
+}
+
+TEST_F(BakeVerb, IsSilentOnStderrWhenAllIsWellAndEverywhereWhenQuiet) {
+    write("cube.off", cube_off);
+    const Outcome outcome = run({"bake", "cube.off", "-o", "a.ply"});
+    EXPECT_EQ(outcome.code, done);
+    EXPECT_EQ(outcome.err, "");
+    const Outcome quiet = run({"bake", "cube.off", "-o", "b.ply", "--quiet"});
+    EXPECT_EQ(quiet.code, done);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.ply", "b.ply", "cube.off"}));
+}
+
+TEST_F(BakeVerb, GivesTheSameBytesWithAnyNumberOfThreads) {
+    for (const char* method : {"classic", "traced"}) {
+        std::set<std::string> results;
+        for (const char* threads : {"1", "2", "3"}) {
+            const Outcome outcome = run({"bake", real_mesh("elephant.off"), "-o", "a.ply", "--method", method,
+                                         "--rays", "16", "--threads", threads});
+            ASSERT_EQ(outcome.code, done) << outcome.err;
+            results.insert(bytes_of("a.ply"));
+        }
+        EXPECT_EQ(results.size(), 1u) << method;
+        EXPECT_GT(results.begin()->size(), 2775u * 16);
+    }
+}
+
+TEST_F(BakeVerb, LeavesTheOldFileAsItWasAfterAFailure) {
+    write("a.ply", "what was here before");
+    write("cube.off", cube_off);
+    write("broken.off", "OFF\n3 1 0\n0 0 0\n");
+    expect_refusal({"bake", "broken.off", "-o", "a.ply"}, bad_input, {"broken.off"});
+    expect_refusal({"bake", "cube.off", "-o", "a.ply", "--voxel", "1e-9"}, bad_input, {"--voxel"});
+    expect_refusal({"bake", "cube.off", "-o", "a.ply", "--method", "none at all"}, usage, {"none at all"});
+    largest_file_ = 4096;
+    expect_refusal({"bake", real_mesh("elephant.off"), "-o", "a.ply"}, failure, {"a.ply: cannot be written"});
+    EXPECT_EQ(bytes_of("a.ply"), "what was here before");
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.ply", "broken.off", "cube.off"}));
+}
+
+TEST_F(BakeVerb, WorksInPlaceAndAddsNothingTwice) {
+    write("cube.off", cube_off);
+    ASSERT_EQ(run({"bake", "cube.off", "-o", "a.ply"}).code, done);
+    const std::string once = bytes_of("a.ply");
+    for (int again = 0; again < 2; ++again) {
+        const Outcome outcome = run({"bake", "a.ply", "-o", "a.ply"});
+        ASSERT_EQ(outcome.code, done) << outcome.err;
+        EXPECT_EQ(bytes_of("a.ply"), once);
+    }
+    ASSERT_EQ(run({"bake", "a.ply", "-o", "a.ply", "--color", "ao"}).code, done);
+    const std::string header = header_of(bytes_of("a.ply"));
+    for (const char* name : {"ao", "quality", "red", "green", "blue", "alpha", "x"})
+        EXPECT_EQ(count_of(header, std::string(" ") + name + "\n"), 1u) << name << " in " << header;
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.ply", "cube.off"}));
+}
+
+TEST_F(BakeVerb, WritesVisibilityUnderTheNamesOthersRead) {
+    // A cube is convex: nothing is hidden from any vertex.
+    write("cube.off", cube_off);
+    ASSERT_EQ(run({"bake", "cube.off", "-o", "a.ply"}).code, done);
+    const Mesh mesh = read_mesh(folder_ / "work/a.ply");
+    const auto& document = dynamic_cast<const PlyDocument&>(*mesh.source);
+    const PlyElement& vertices = *document.find("vertex");
+    for (const char* name : {"ao", "quality"}) {
+        ASSERT_NE(vertices.find(name), nullptr);
+        EXPECT_EQ(vertices.find(name)->type, PlyType::float32);
+    }
+    ASSERT_EQ(mesh.vertex_colors.size(), 8u);
+    for (const Color& color : mesh.vertex_colors)
+        EXPECT_GE(color[0], 250);
+    ASSERT_EQ(mesh.face_count(), 6u);
+    for (std::size_t f = 0; f < 6; ++f)
+        EXPECT_EQ(mesh.face(f).size(), 4u);
+}
+
+TEST_F(BakeVerb, KeepsTheColoursAndQualityOfTheInput) {
+    write("own.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                     "property float z\nproperty float quality\nelement face 2\n"
+                     "property list uchar int vertex_indices\nend_header\n"
+                     "0 0 0 0.25\n1 0 0 0.5\n1 1 0 0.75\n0 1 0 -3\n3 0 1 2\n3 0 2 3\n");
+    ASSERT_EQ(run({"bake", "own.ply", "-o", "a.ply"}).code, done);
+    const Mesh mesh = read_mesh(folder_ / "work/a.ply");
+    EXPECT_TRUE(mesh.vertex_colors.empty());
+    const auto& document = dynamic_cast<const PlyDocument&>(*mesh.source);
+    const PlyElement& vertices = *document.find("vertex");
+    ASSERT_EQ(vertices.properties.size(), 5u);
+    const float wanted[] = {0.25f, 0.5f, 0.75f, -3.0f};
+    for (std::size_t v = 0; v < 4; ++v)
+        EXPECT_EQ(number_at(vertices.rows.data() + v * 20 + 12, PlyType::float32), wanted[v]);
+}
+
+TEST_F(BakeVerb, WritesObjWithColoursAndEveryOtherLineOfTheInput) {
+    write("cube.obj",
+          "# made by hand\nmtllib cube.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\n"
+          "f 1/1 2/1 3/1\n");
+    ASSERT_EQ(run({"bake", "cube.obj", "-o", "a.obj"}).code, done);
+    const std::string text = bytes_of("a.obj");
+    for (const char* line : {"# made by hand\n", "mtllib cube.mtl\n", "o cube\n", "vt 0 0\n", "usemtl red\n",
+                             "f 1/1 2/1 3/1\n", "v 0 0 0 ", "v 1 0 0 "})
+        EXPECT_NE(text.find(line), std::string::npos) << line << " is not in " << text;
+    EXPECT_EQ(read_mesh(folder_ / "work/a.obj").vertex_colors.size(), 3u);
+}
+
+}
+}

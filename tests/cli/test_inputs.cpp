@@ -1,0 +1,100 @@
+#include "program.h"
+
+namespace alcove::test {
+namespace {
+
+struct Damage {
+    std::string name, bytes;
+    std::vector<std::string> said;
+};
+
+std::string binary_stl_cut_short() {
+    std::string bytes(84, '\0');
+    bytes[80] = 100; // triangles announced
+    return bytes + std::string(50, 'x');
+}
+
+const std::vector<Damage>& damages() {
+    static const std::vector<Damage> all{
+        {"cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n", {"cut.ply", "line"}},
+        {"cut_rows.ply",
+         "ply\nformat binary_little_endian 1.0\nelement vertex 1000000\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\nabc",
+         {"cut_rows.ply"}},
+        {"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", {"index.off", "line 6"}},
+        {"word.obj", "v 0 0 0\nv 1 0 x\nv 0 1 0\nf 1 2 3\n", {"word.obj", "line 2"}},
+        {"cut.stl", binary_stl_cut_short(), {"cut.stl"}},
+        {"points.ply",
+         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
+         "z\nend_header\n"
+         "0 0 0\n1 1 1\n",
+         {"points.ply", "2 points", "no faces"}},
+        {"points.obj", "v 0 0 0\nv 1 0 0\n", {"points.obj", "no faces"}},
+        {"empty.off", "", {"empty.off", "empty"}},
+        {"prose.txt", "It was a dark and stormy night.\n", {"prose.txt", "PLY, OBJ, OFF and STL"}},
+    };
+    return all;
+}
+
+using Inputs = ProgramTest;
+
+TEST_F(Inputs, DamagedOnesAreRefusedByNameAndPlace) {
+    for (const Damage& damage : damages()) {
+        write(damage.name, damage.bytes);
+        expect_refusal({"bake", damage.name, "-o", "b.ply"}, bad_input, damage.said);
+        expect_refusal({"voxelize", damage.name, "-o", "b.vdb"}, bad_input, damage.said);
+        expect_refusal({"info", damage.name}, bad_input, damage.said);
+        expect_refusal({"info", damage.name, "--json"}, bad_input, damage.said);
+    }
+    EXPECT_EQ(files().size(), damages().size());
+}
+
+TEST_F(Inputs, MissingOnesAndFoldersAreRefused) {
+    std::filesystem::create_directory(folder_ / "work/folder.ply");
+    std::filesystem::create_directory(folder_ / "work/folder.vdb");
+    for (const char* name : {"none.ply", "folder.ply"}) {
+        expect_refusal({"bake", name, "-o", "b.ply"}, bad_input, {name});
+        expect_refusal({"voxelize", name, "-o", "b.vdb"}, bad_input, {name});
+        expect_refusal({"info", name}, bad_input, {name});
+    }
+    for (const char* name : {"none.vdb", "folder.vdb"})
+        expect_refusal({"info", name}, bad_input, {name});
+}
+
+TEST_F(Inputs, AMeshWithoutAreaIsRefusedByName) {
+    write("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
+    expect_refusal({"bake", "flat.off", "-o", "b.ply"}, bad_input, {"flat.off", "area"});
+}
+
+TEST_F(Inputs, ATooFineVoxelIsRefusedWithOneThatFits) {
+    write("cube.off", cube_off);
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--voxel", "1e-9"}, bad_input,
+                   {"cube.off", "GB", "--voxel"});
+}
+
+TEST_F(Inputs, ALineBreakInANameStaysOneLine) {
+    expect_refusal({"info", "two\nlines.ply"}, bad_input, {"two?lines.ply"});
+}
+
+TEST_F(Inputs, ImagesAndDamagedGridsAreNoMeshes) {
+    write("image.exr", std::string("\x76\x2f\x31\x01", 4) + "rest");
+    expect_refusal({"info", "image.exr"}, bad_input, {"image.exr", "not a mesh or grid"});
+    write("damaged.vdb", "no grid at all");
+    expect_refusal({"info", "damaged.vdb"}, bad_input, {"damaged.vdb"});
+}
+
+TEST_F(Inputs, NamesMayHoldSpacesAndAnyLetters) {
+    for (const char* name : {"two words.off", "W\xc3\xbcrfel \xe7\xab\x8b\xe6\x96\xb9.off", "-minus.off"}) {
+        write(name, cube_off);
+        const std::string input = std::string("./") + name, output = std::string("./") + name + ".ply";
+        const Outcome baked = run({"bake", input, "-o", output, "--method", "classic", "--json"});
+        EXPECT_EQ(baked.code, done) << baked.err;
+        EXPECT_EQ(baked.json().at("input"), input);
+        const Outcome told = run({"info", output, "--json"});
+        EXPECT_EQ(told.code, done) << told.err;
+        EXPECT_EQ(told.json().at("vertices"), 8);
+    }
+}
+
+}
+}

@@ -1,0 +1,137 @@
+#include "program.h"
+
+#include <unistd.h>
+
+namespace alcove::test {
+namespace {
+
+struct Verb {
+    std::string name;
+    std::vector<std::string> options;
+};
+
+const std::vector<Verb> verbs{
+    {"bake",
+     {"--radius", "--method", "--samples", "--rays", "--seed", "--normals", "--sign", "--voxel",
+      "--write-grid", "--color", "--color-encoding"}},
+    {"voxelize", {"--voxel", "--band", "--radius"}},
+    {"render", {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov"}},
+    {"info", {}},
+};
+
+using Program = ProgramTest;
+
+TEST_F(Program, SaysItsVersion) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--version"}, {"bake", "--version"}, {"info", "--version"}}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, done);
+        EXPECT_TRUE(outcome.out.starts_with("alcove " ALCOVE_VERSION)) << outcome.out;
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
+TEST_F(Program, HelpNamesEveryVerbAndOptionAndGivesExamples) {
+    const Outcome overview = run({"--help"});
+    EXPECT_EQ(overview.code, done);
+    EXPECT_NE(overview.out.find("alcove bake "), std::string::npos);
+    for (const Verb& verb : verbs) {
+        SCOPED_TRACE(verb.name);
+        EXPECT_NE(overview.out.find("\n  " + verb.name + " "), std::string::npos) << overview.out;
+        const Outcome help = run({verb.name, "--help"});
+        EXPECT_EQ(help.code, done);
+        EXPECT_EQ(help.err, "");
+        EXPECT_NE(help.out.find("alcove " + verb.name + " "), std::string::npos);
+        EXPECT_NE(help.out.find("xample"), std::string::npos) << help.out;
+        std::vector<std::string> options = verb.options;
+        options.insert(options.end(),
+                       {"--threads", "--json", "--progress", "--quiet", "--help", "--version"});
+        for (const std::string& option : options)
+            EXPECT_NE(help.out.find(option + " "), std::string::npos) << option << " is not in " << help.out;
+    }
+}
+
+TEST_F(Program, AsksForAVerbAndNamesTheNearest) {
+    expect_refusal({}, usage, {"a verb is needed: bake", "alcove --help"});
+    expect_refusal({"frobnicate"}, usage, {"no verb 'frobnicate'", "bake", "info"});
+    expect_refusal({"bkae", "a.ply"}, usage, {"no verb 'bkae'", "did you mean bake?"});
+    expect_refusal({"--frobnicate"}, usage, {"--frobnicate", "name a verb"});
+    expect_refusal({"--threads", "2", "bake", "a.ply", "-o", "b.ply"}, usage,
+                   {"--threads", "behind the verb"});
+}
+
+TEST_F(Program, NamesTheNearestOption) {
+    write("cube.off", cube_off);
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--raduis", "0.1"}, usage,
+                   {"no option --raduis", "did you mean --radius?", "alcove bake --help"});
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--raduis=0.1"}, usage, {"did you mean --radius?"});
+    expect_refusal({"bake", "cube.off", "--outptu", "b.ply"}, usage, {"did you mean --output?"});
+    expect_refusal({"info", "cube.off", "--jsno"}, usage, {"did you mean --json?"});
+    const Outcome far = run({"bake", "cube.off", "-o", "b.ply", "--zzzzzzzz"});
+    EXPECT_EQ(far.code, usage);
+    EXPECT_EQ(far.err.find("did you mean"), std::string::npos);
+    EXPECT_EQ(files(), std::vector<std::string>{"cube.off"});
+}
+
+TEST_F(Program, SaysWhatIsMissingOrTooMuch) {
+    expect_refusal({"bake"}, usage, {"input is required"});
+    expect_refusal({"info"}, usage, {"file is required"});
+    expect_refusal({"bake", "a.ply"}, usage, {"--output is required"});
+    expect_refusal({"bake", "a.ply", "b.ply"}, usage, {"did you mean -o b.ply?"});
+    expect_refusal({"bake", "a.ply", "-o", "b.ply", "c.ply"}, usage, {"no further argument 'c.ply'"});
+    expect_refusal({"bake", "a.ply", "-o", "b.ply", "--radius"}, usage, {"--radius needs a value"});
+    expect_refusal({"bake", "a.ply", "-o", "b.ply", "--radius", "1", "--radius", "2"}, usage,
+                   {"--radius", "more than once"});
+}
+
+TEST_F(Program, RefusesBadLengthsBeforeItReadsAnything) {
+    for (const char* length : {"-1", "abc", "nan", "0", "-inf", "10 %", "1e", "%", "5%%", "5px"}) {
+        expect_refusal({"bake", "none.ply", "-o", "b.ply", "--radius", length}, usage,
+                       {"--radius", "'" + std::string(length) + "'", "10%"});
+        expect_refusal({"voxelize", "none.ply", "-o", "b.vdb", "--voxel", length}, usage,
+                       {"--voxel", "'" + std::string(length) + "'", "10%"});
+    }
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--radius", "10vx"}, usage, {"--radius", "--voxel"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--voxel", "2vx"}, usage, {"--voxel"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--voxel", "inf"}, usage, {"--voxel"});
+}
+
+TEST_F(Program, RefusesBadNumbersAndWordsBeforeItReadsAnything) {
+    for (const char* number : {"-1", "abc", "1.5", "99999999999", "nan"})
+        expect_refusal({"bake", "none.ply", "-o", "b.ply", "--threads", number}, usage,
+                       {"--threads", "whole number", "'" + std::string(number) + "'"});
+    const std::vector<std::vector<std::string>> wrong{
+        {"--samples", "-3"},   {"--samples", "x"}, {"--rays", "0"},
+        {"--rays", "0.5"},     {"--seed", "-1"},   {"--sign", "both"},
+        {"--normals", "none"}, {"--color", "red"}, {"--color-encoding", "linear"},
+        {"--progress", "loud"}};
+    for (const auto& option : wrong)
+        expect_refusal({"bake", "none.ply", "-o", "b.ply", option[0], option[1]}, usage,
+                       {option[0], option[1]});
+    expect_refusal({"voxelize", "none.ply", "-o", "b.vdb", "--band", "1"}, usage, {"--band", "1"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--method", "clasic"}, usage,
+                   {"no method 'clasic'", "classic", "traced"});
+}
+
+TEST_F(Program, RefusesAnUnknownOutputBeforeItReadsAnything) {
+    for (const char* name : {"b.png", "b.off", "b.stl", "b", "b.ply.bak"})
+        expect_refusal({"bake", "none.ply", "-o", name}, usage, {name, ".ply or .obj"});
+    expect_refusal({"voxelize", "none.ply", "-o", "b.ply"}, usage, {"b.ply", ".vdb"});
+    expect_refusal({"render", "none.ply", "-o", "b.jpg"}, usage, {"b.jpg", ".exr or .png"});
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Program, TellsWhereNothingCanBeWrittenBeforeItReadsAnything) {
+    expect_refusal({"bake", "none.ply", "-o", "no/such/b.ply"}, failure, {"no/such/b.ply"});
+    std::filesystem::create_directory(folder_ / "work/b.ply");
+    expect_refusal({"bake", "none.ply", "-o", "b.ply"}, failure, {"b.ply", "folder"});
+    if (::geteuid() == 0)
+        GTEST_SKIP() << "root may write anywhere: folders without permission are not tried";
+    std::filesystem::create_directory(folder_ / "work/locked");
+    std::filesystem::permissions(folder_ / "work/locked", std::filesystem::perms::owner_read);
+    expect_refusal({"bake", "none.ply", "-o", "locked/b.ply"}, failure, {"locked/b.ply"});
+    std::filesystem::permissions(folder_ / "work/locked", std::filesystem::perms::owner_all);
+}
+
+}
+}
