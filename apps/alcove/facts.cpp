@@ -50,7 +50,7 @@ nlohmann::ordered_json Facts::json(const std::string& file) const {
 }
 
 std::string Facts::text(const std::string& file) const {
-    return file + "\n" + text_;
+    return fmt::format("{}: {}\n{}", file, json_.at("kind").get<std::string>(), text_);
 }
 
 }

@@ -1,4 +1,4 @@
-/// What `info` has to say: the same facts as JSON and as aligned lines.
+/// What the info verb has to say: the same facts as JSON and as aligned lines.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -10,9 +10,9 @@
 
 namespace alcove::cli {
 
-class Facts {
+class Facts { // NOLINT(bugprone-exception-escape): moving a json value does not throw
   public:
-    /// A fact for programs only.
+    /// A fact for programs only; the one named `kind` heads the lines.
     void add(const std::string& key, nlohmann::ordered_json value) { json_[key] = std::move(value); }
     /// One that people read as `lines`, under the key with its underscores as spaces; no lines, no fact.
     void add(const std::string& key, nlohmann::ordered_json value, const std::vector<std::string>& lines);

@@ -7,12 +7,14 @@
 #include "alcove/mesh/file_bytes.h"
 #include "alcove/mesh/read.h"
 #include "alcove/parallel.h"
+#include "alcove/render/image.h"
 #include "alcove/render/subject.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <fstream>
+#include <map>
 #include <memory>
 
 namespace alcove::cli {
@@ -32,7 +34,8 @@ Kind kind_of(const std::string& file) {
     const std::string_view begin(bytes.data(), bytes.size());
     if (begin == " BDV\0\0\0\0"sv || file.ends_with(".vdb"))
         return Kind::grid;
-    if (begin.starts_with("\x76\x2f\x31\x01"sv) || begin == "\x89PNG\r\n\x1a\n"sv)
+    if (begin.starts_with("\x76\x2f\x31\x01"sv) || begin == "\x89PNG\r\n\x1a\n"sv || file.ends_with(".exr") ||
+        file.ends_with(".png"))
         return Kind::image;
     return Kind::mesh;
 }
@@ -48,7 +51,10 @@ Facts facts_of_grid(const std::string& file) {
     facts.add("sign", sheet ? "sheet" : "solid",
               sheet ? "negative in a thin layer behind the faces only" : "negative inside");
     try {
+        // Of the cells that outline() looks at.
+        const double cell = scale / 64;
         facts.add_box(outline(LevelStack(stack), stack.frame).box);
+        facts.add("box_tolerance", cell, fmt::format("{:.3g}", cell));
     } catch (const InputError&) {
         facts.add("box", nullptr, "none: no surface, the values never change their sign");
     }
@@ -71,15 +77,41 @@ Facts facts_of_grid(const std::string& file) {
     return facts;
 }
 
+Facts facts_of_image(const std::string& file) {
+    const ImageSummary image = summarize_image(file);
+    Facts facts;
+    facts.add("kind", "image");
+    facts.add("format", image.format, image.format);
+    facts.add("width", image.width);
+    facts.add("height", image.height);
+    facts.add("size", {image.width, image.height}, fmt::format("{} x {} pixels", image.width, image.height));
+    auto channels = nlohmann::ordered_json::array();
+    std::map<std::string, std::string> names_of;
+    for (const auto& [name, type] : image.channels) {
+        channels.push_back({{"name", name}, {"type", type}});
+        names_of[type] += " " + name;
+    }
+    std::vector<std::string> lines;
+    lines.reserve(names_of.size());
+    for (const auto& [type, names] : names_of)
+        lines.push_back(fmt::format("{}:{}", type, names));
+    facts.add("channels", channels, lines);
+    auto texts = nlohmann::ordered_json::object();
+    lines.clear();
+    for (const auto& [name, text] : image.texts) {
+        texts[name] = text;
+        lines.push_back(fmt::format("{}: {}", name, text));
+    }
+    facts.add("texts", texts, lines);
+    return facts;
+}
+
 void run(const Options& options) {
     const ThreadLimit limit(options.common.threads);
     const Kind kind = kind_of(options.input);
-    if (kind == Kind::image)
-        throw InputError(
-            options.input +
-            ": is an image, not a mesh or grid; open it in an image viewer or give a mesh or a .vdb");
-    const Facts facts =
-        kind == Kind::grid ? facts_of_grid(options.input) : facts_of_mesh(read_mesh(options.input));
+    const Facts facts = kind == Kind::grid    ? facts_of_grid(options.input)
+                        : kind == Kind::image ? facts_of_image(options.input)
+                                              : facts_of_mesh(read_mesh(options.input));
     if (options.common.json)
         print_json(facts.json(options.input));
     else
@@ -89,9 +121,10 @@ void run(const Options& options) {
 }
 
 void add_info(CLI::App& program) {
-    auto* verb = program.add_subcommand("info", "Tell what a mesh or grid holds and what is wrong with it");
+    auto* verb = program.add_subcommand("info", "Tell what a mesh, grid or image holds; a mesh is diagnosed");
     auto options = std::make_shared<Options>();
-    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl) or grid (vdb)")->required();
+    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl), grid (vdb) or image (exr, png)")
+        ->required();
     add_common_options(*verb, options->common);
     verb->footer("Example: alcove info model.ply");
     verb->callback([options] { run(*options); });

@@ -1,5 +1,8 @@
 #include "program.h"
 
+#include <cmath>
+#include <set>
+
 namespace alcove::test {
 namespace {
 
@@ -55,7 +58,7 @@ TEST_F(InfoVerb, NamesEveryPropertyAndWhatIsWrong) {
     const Outcome text = run({"info", "scan.ply"});
     EXPECT_EQ(text.code, done);
     for (const char* part :
-         {"scan.ply\n", "PLY", "2 triangles", "confidence", "4 open edges", "sheet", "not finite"})
+         {"scan.ply: mesh\n", "PLY", "2 triangles", "confidence", "4 open edges", "sheet", "not finite"})
         EXPECT_NE(text.out.find(part), std::string::npos) << part << " is not in " << text.out;
 }
 
@@ -87,6 +90,29 @@ TEST_F(InfoVerb, MeasuresAGridInTheUnitsOfTheScene) {
     const Outcome text = run({"info", "cube.vdb"});
     for (const char* part : {"Alcove", "voxel 0.05,", "negative inside"})
         EXPECT_NE(text.out.find(part), std::string::npos) << part << " is not in " << text.out;
+}
+
+TEST_F(InfoVerb, ListsTheChannelsOfAnImage) {
+    write("cube.off", cube_off);
+    for (const char* name : {"cube.exr", "cube.png"}) {
+        ASSERT_EQ(run({"render", "cube.off", "-o", name, "--size", "40x30"}).code, done);
+        const Outcome outcome = run({"info", name, "--json"});
+        ASSERT_EQ(outcome.code, done) << outcome.err;
+        const nlohmann::json image = outcome.json();
+        EXPECT_EQ(image.at("kind"), "image");
+        EXPECT_EQ(image.at("width"), 40);
+        EXPECT_EQ(image.at("height"), 30);
+    }
+    const nlohmann::json exr = run({"info", "cube.exr", "--json"}).json();
+    EXPECT_EQ(exr.at("format"), "EXR");
+    std::set<std::string> channels;
+    for (const nlohmann::json& channel : exr.at("channels"))
+        channels.insert(channel.at("name").get<std::string>() + " " + channel.at("type").get<std::string>());
+    for (const char* channel : {"R half", "A half", "Z float", "N.X float", "AO.R half"})
+        EXPECT_TRUE(channels.contains(channel)) << channel;
+    EXPECT_EQ(exr.at("texts").at("software"), "alcove " ALCOVE_VERSION);
+    EXPECT_EQ(run({"info", "cube.png", "--json"}).json().at("channels").size(), 3u);
+    EXPECT_NE(run({"info", "cube.exr"}).out.find("40 x 30 pixels"), std::string::npos);
 }
 
 TEST_F(InfoVerb, FailsWhenItsWordsCannotBeWritten) {

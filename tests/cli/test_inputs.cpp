@@ -76,9 +76,9 @@ TEST_F(Inputs, ALineBreakInANameStaysOneLine) {
     expect_refusal({"info", "two\nlines.ply"}, bad_input, {"two?lines.ply"});
 }
 
-TEST_F(Inputs, ImagesAndDamagedGridsAreNoMeshes) {
+TEST_F(Inputs, DamagedImagesAndGridsAreRefused) {
     write("image.exr", std::string("\x76\x2f\x31\x01", 4) + "rest");
-    expect_refusal({"info", "image.exr"}, bad_input, {"image.exr", "not a mesh or grid"});
+    expect_refusal({"info", "image.exr"}, bad_input, {"image.exr", "no readable EXR or PNG image"});
     write("damaged.vdb", "no grid at all");
     expect_refusal({"info", "damaged.vdb"}, bad_input, {"damaged.vdb"});
 }

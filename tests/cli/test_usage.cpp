@@ -1,5 +1,7 @@
 #include "program.h"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 namespace alcove::test {
@@ -87,9 +89,9 @@ TEST_F(Program, SaysWhatIsMissingOrTooMuch) {
 TEST_F(Program, RefusesBadLengthsBeforeItReadsAnything) {
     for (const char* length : {"-1", "abc", "nan", "0", "-inf", "10 %", "1e", "%", "5%%", "5px"}) {
         expect_refusal({"bake", "none.ply", "-o", "b.ply", "--radius", length}, usage,
-                       {"--radius", "'" + std::string(length) + "'", "10%"});
+                       {"--radius", fmt::format("'{}'", length), "10%"});
         expect_refusal({"voxelize", "none.ply", "-o", "b.vdb", "--voxel", length}, usage,
-                       {"--voxel", "'" + std::string(length) + "'", "10%"});
+                       {"--voxel", fmt::format("'{}'", length), "10%"});
     }
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--radius", "10vx"}, usage, {"--radius", "--voxel"});
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--voxel", "2vx"}, usage, {"--voxel"});
@@ -99,7 +101,7 @@ TEST_F(Program, RefusesBadLengthsBeforeItReadsAnything) {
 TEST_F(Program, RefusesBadNumbersAndWordsBeforeItReadsAnything) {
     for (const char* number : {"-1", "abc", "1.5", "99999999999", "nan"})
         expect_refusal({"bake", "none.ply", "-o", "b.ply", "--threads", number}, usage,
-                       {"--threads", "whole number", "'" + std::string(number) + "'"});
+                       {"--threads", "whole number", fmt::format("'{}'", number)});
     const std::vector<std::vector<std::string>> wrong{
         {"--samples", "-3"},   {"--samples", "x"}, {"--rays", "0"},
         {"--rays", "0.5"},     {"--seed", "-1"},   {"--sign", "both"},

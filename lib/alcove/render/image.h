@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace alcove {
@@ -52,5 +53,21 @@ void write_exr(const Image& image, const std::filesystem::path& file, const Imag
 /// Normal: each component from [−1, 1] to [0, 1], over the backdrop. Depth: near is white, far dark grey,
 /// nothing black. \throw IoError if the file cannot be written.
 void write_png(const Image& image, const std::filesystem::path& file, Pass pass);
+
+/// What an image file says of itself.
+struct ImageSummary {
+    struct Channel {
+        std::string name;
+        std::string type; ///< "half", "float", "uint"; of a PNG "8 bits" or "16 bits"
+    };
+    std::string format; ///< "EXR" or "PNG"
+    int width = 0;
+    int height = 0;
+    std::vector<Channel> channels;
+    std::vector<std::pair<std::string, std::string>> texts; ///< such as software and comments, by name
+};
+
+/// Reads the header of an EXR or PNG, no pixels. \throw InputError if the file is neither or cannot be opened.
+ImageSummary summarize_image(const std::filesystem::path& file);
 
 }
