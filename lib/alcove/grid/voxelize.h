@@ -19,7 +19,7 @@ struct VoxelizeOptions {
     GridOptions grid;
     SignChoice sign = SignChoice::automatic;
     /// Told after each finished level: how much of the work is done, in [0, 1]. Called on the calling thread.
-    std::function<void(double done)> progress;
+    std::function<void(double done)> progress = {};
 };
 
 /// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor
