@@ -120,8 +120,9 @@ float Bricks::map(const Vec3& p) const {
                        static_cast<std::size_t>(cell[1] / cells)) *
                           static_cast<std::size_t>(size_[2]) +
                       static_cast<std::size_t>(cell[2] / cells);
-    const float* corner = &bricks_[static_cast<std::size_t>(
-        index_[slot] + ((cell[0] % cells) * samples + cell[1] % cells) * samples + cell[2] % cells)];
+    const std::int32_t first =
+        index_[slot] + ((cell[0] % cells) * samples + cell[1] % cells) * samples + cell[2] % cells;
+    const float* corner = bricks_.data() + first;
     const auto mix = [](float a, float b, float s) { return a + (b - a) * s; }; // std::lerp branches
     const auto along_z = [&](int at) { return mix(corner[at], corner[at + 1], t[2]); };
     const float near = mix(along_z(0), along_z(samples), t[1]);

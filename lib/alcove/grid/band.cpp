@@ -21,6 +21,7 @@ using MaskLeaf = MaskTree::LeafNodeType;
 
 constexpr int leaf_size = 8;
 constexpr int apron_size = leaf_size + 2;
+constexpr int apron_volume = apron_size * apron_size * apron_size;
 constexpr int no_triangle = -1;
 static_assert(MaskLeaf::DIM == leaf_size);
 
@@ -29,9 +30,9 @@ int apron_index(int x, int y, int z) {
 }
 
 /// The nearest triangles of a leaf's voxels and of one more layer around it.
-std::array<int, apron_size * apron_size * apron_size>
-apron(const openvdb::tree::ValueAccessor<const Int32Tree>& nearest, const Coord& origin) {
-    std::array<int, apron_size * apron_size * apron_size> around;
+std::array<int, apron_volume> apron(const openvdb::tree::ValueAccessor<const Int32Tree>& nearest,
+                                    const Coord& origin) {
+    std::array<int, apron_volume> around;
     around.fill(no_triangle);
     const auto range = [](int side) { // of local coordinates that a neighbouring leaf covers
         return side < 0   ? std::pair{-1, 0}

@@ -251,6 +251,7 @@ class ObjReader {
         std::sort(others.begin(), others.end());
         others.erase(std::unique(others.begin(), others.end()), others.end());
         std::vector<Vec3d> sums;
+        sums.reserve(first.size());
         for (const std::uint32_t normal : first)
             sums.push_back(normal == 0 ? Vec3d(0.0) : Vec3d(normals_[normal - 1]));
         std::size_t several = 0;

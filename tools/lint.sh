@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Checks the format of all sources, looks for bugs in those of the library and the program, and checks scripts.
+# Needs the compile commands of a configured build: tools/lint.sh [build directory]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${1:-build}
+
+git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format --dry-run -Werror
+git ls-files -z '*.sh' .ci/run | xargs -0 shellcheck
+git ls-files -z 'lib/*.cpp' 'apps/*.cpp' | xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet -p "$build"
