@@ -16,10 +16,12 @@
 #include "alcove/parallel.h"
 #include "alcove/types.h"
 
+#include "alcove/mesh/colors.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/read.h"
+#include "alcove/mesh/source.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/mesh/write.h"
 
@@ -42,3 +44,9 @@
 #include "alcove/occlusion/directions.h"
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/traced.h"
+
+#include "alcove/render/camera.h"
+#include "alcove/render/image.h"
+#include "alcove/render/renderer.h"
+#include "alcove/render/shading.h"
+#include "alcove/render/subject.h"

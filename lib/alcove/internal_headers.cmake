@@ -1,10 +1,10 @@
 # Headers that serve the library's own sources: not installed, and no public header may include them.
 # All other headers under lib/alcove are public.
 set(alcove_internal_headers
+    atomic_file.h
     grid/band.h
     grid/surface.h
     grid/vdb.h
-    mesh/atomic_file.h
     mesh/byte_reader.h
     mesh/edge_table.h
     mesh/file_bytes.h
@@ -12,6 +12,6 @@ set(alcove_internal_headers
     mesh/obj_document.h
     mesh/ply_document.h
     mesh/ply_parse.h
-    mesh/source.h
     mesh/text_scanner.h
-    mesh/weld.h)
+    mesh/weld.h
+    render/camera_rays.h)
