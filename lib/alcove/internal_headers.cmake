@@ -1,4 +1,4 @@
-# Headers that serve the library's own sources: not installed, and no public header may include them.
+# Headers for this source tree alone: not installed, and no public header may include them.
 # All other headers under lib/alcove are public.
 set(alcove_internal_headers
     atomic_file.h

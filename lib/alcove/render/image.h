@@ -67,7 +67,8 @@ struct ImageSummary {
     std::vector<std::pair<std::string, std::string>> texts; ///< such as software and comments, by name
 };
 
-/// Reads the header of an EXR or PNG, no pixels. \throw InputError if the file is neither or cannot be opened.
+/// Reads the header of an EXR or PNG, no pixels. \throw InputError if the file is neither or cannot be
+/// opened.
 ImageSummary summarize_image(const std::filesystem::path& file);
 
 }
