@@ -26,6 +26,8 @@ struct BakeOptions {
                                write_grid;
 };
 
+constexpr const char* provenance = "alcove ";
+
 NormalSource parse_normals(const std::string& text) {
     if (text == "auto")
         return NormalSource::automatic;
@@ -44,10 +46,13 @@ ColorEncoding parse_encoding(const std::string& text) {
     throw UsageError(fmt::format("--color-encoding takes srgb or raw, not '{}'", text));
 }
 
-/// Whether occlusion becomes colours and `quality`: as asked, else unless the input has its own.
+/// Whether occlusion becomes colours and `quality`: as asked, else unless the input has its own; those of an
+/// earlier bake are not its own.
 bool wants_colors(const std::string& asked, const Mesh& mesh) {
     if (!asked.empty())
         return asked == "ao";
+    if (mesh.source && mesh.source->has_comment(provenance))
+        return true;
     return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
 }
 
@@ -60,6 +65,8 @@ void run(const BakeOptions& options) {
         throw UsageError(fmt::format("--color takes ao or none, not '{}'", options.color));
     if (!can_write_mesh(options.output))
         throw UsageError(options.output + ": meshes are written as .ply or .obj; name the output so");
+    if (!options.write_grid.empty())
+        check_grid_output(options.write_grid);
 
     nlohmann::ordered_json seconds;
     VoxelizedMesh input = read_and_voxelize(options.input, options.grid, options.common, seconds);
@@ -70,6 +77,8 @@ void run(const BakeOptions& options) {
         write_grids(input.stack, options.write_grid);
     seconds["grid"] = seconds["grid"].get<double>() + watch.lap();
 
+    if (normals == NormalSource::file && mesh.normals.empty())
+        throw InputError(options.input + ": has no normals of its own: use --normals area");
     const std::vector<Surfel> surfels = make_surfels(mesh, input.triangles, input.frame, normals);
     const auto bare =
         std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
@@ -92,12 +101,14 @@ void run(const BakeOptions& options) {
     WriteOptions writing;
     writing.comments.push_back(fmt::format("alcove {}: ambient occlusion by {}, radius {:.6g}, voxel {:.6g}",
                                            ALCOVE_VERSION, method.name, radius, voxel));
-    mesh.set_attribute({"ao", 1, ao});
-    if (wants_colors(options.color, mesh)) {
-        if (extension(options.output) == ".ply")
-            mesh.set_attribute({"quality", 1, ao});
+    const bool colored = wants_colors(options.color, mesh);
+    if (colored)
         writing.colors = grey_colors(ao, encoding);
-    }
+    // An .obj holds the values as colours alone.
+    if (!colored || extension(options.output) != ".obj")
+        mesh.set_attribute({"ao", 1, ao});
+    if (colored && extension(options.output) == ".ply")
+        mesh.set_attribute({"quality", 1, std::move(ao)});
     for (std::string& lost : write_mesh(mesh, options.output, writing))
         input.warnings.push_back(std::move(lost));
     seconds["write"] = watch.lap();

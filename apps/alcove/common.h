@@ -38,6 +38,9 @@ void print_warnings(const std::vector<std::string>& warnings, const CommonOption
 /// The estimator of that name. \throw UsageError listing the known ones.
 const Method& parse_method(const std::string& name);
 
+/// `3412` as `3,412`.
+std::string grouped(std::size_t number);
+
 /// The extension of a file's name in lower case, with its dot.
 std::string extension(const std::string& file);
 

@@ -2,6 +2,7 @@
 
 #include "length.h"
 
+#include "alcove/atomic_file.h"
 #include "alcove/errors.h"
 #include "alcove/mesh/read.h"
 
@@ -83,11 +84,10 @@ VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& req
     return result;
 }
 
-std::string grouped(std::size_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t at = digits.size(); at > 3;)
-        digits.insert(at -= 3, 1, ',');
-    return digits;
+void check_grid_output(const std::string& file) {
+    if (extension(file) != ".vdb")
+        throw UsageError(file + ": grids are written as .vdb; name the output so");
+    const AtomicFile probe(file);
 }
 
 std::string_view name_of(Sign sign) {

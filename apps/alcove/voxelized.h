@@ -32,8 +32,8 @@ struct VoxelizedMesh {
 VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,
                                 const CommonOptions& common, nlohmann::ordered_json& seconds);
 
-/// `3,412 vertices`: the thousands apart.
-std::string grouped(std::size_t number);
+/// \throw UsageError unless the name ends in .vdb, IoError if nothing can be written there: before any work.
+void check_grid_output(const std::string& file);
 
 /// The name of a sign for people.
 std::string_view name_of(Sign sign);

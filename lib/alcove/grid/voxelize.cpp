@@ -41,13 +41,25 @@ openvdb::Int32Tree::Ptr rasterize(const Surface& surface) {
     return nearest.treePtr();
 }
 
-Sign choose_sign(SignChoice choice, const Mesh& mesh, const Band& finest, const BandWidth& width,
+void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
+    if (surface.flipped_edges > 0)
+        warnings.push_back(
+            fmt::format("at {} edges the neighbouring faces turn opposite ways: vertices there are lit from "
+                        "whichever side their normals take, make the faces agree first",
+                        surface.flipped_edges));
+    if (surface.inverted_components > 0)
+        warnings.push_back(
+            fmt::format("{} of {} parts face inward and get the occlusion of their inside: right for the "
+                        "wall of a cavity, else turn their faces over first",
+                        surface.inverted_components, surface.components));
+}
+
+Sign choose_sign(SignChoice choice, const Closedness& surface, const Band& finest, const BandWidth& width,
                  std::vector<std::string>& warnings) {
     if (choice == SignChoice::sheet)
         return Sign::sheet;
     if (choice == SignChoice::automatic) {
         // The wall of a cavity counts as inverted too: as a sheet it is as right.
-        const Closedness surface = closedness(mesh);
         if (!surface.closed() || surface.inverted_components > 0)
             return Sign::sheet;
     }
@@ -97,12 +109,14 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     if (surface.size() == 0)
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
 
+    const Closedness shape = closedness(mesh);
+    warn_of_orientation(shape, stack.warnings);
     openvdb::initialize();
     const bool sheet = options.sign == SignChoice::sheet;
     const BandWidth both{plan.outer_band, plan.outer_band};
     const BandWidth solid{plan.outer_band, std::max(plan.inner_band, 2.0f)};
     Band band(surface, 1, rasterize(surface), sheet ? both : solid);
-    stack.sign = choose_sign(options.sign, mesh, band, solid, stack.warnings);
+    stack.sign = choose_sign(options.sign, shape, band, solid, stack.warnings);
     if (stack.sign == Sign::sheet && !sheet)
         band.widen(both);
     for (int level = 0; level < plan.levels; ++level) {

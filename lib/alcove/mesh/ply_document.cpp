@@ -189,6 +189,12 @@ const PlyElement* PlyDocument::find(std::string_view element) const {
     return found == elements.end() ? nullptr : &*found;
 }
 
+bool PlyDocument::has_comment(std::string_view beginning) const {
+    return std::any_of(comments.begin(), comments.end(), [&](std::string_view line) {
+        return line.starts_with("comment ") && line.substr(8).starts_with(beginning);
+    });
+}
+
 bool PlyDocument::has_vertex_property(std::string_view name) const {
     const PlyElement* vertices = find("vertex");
     return vertices != nullptr && vertices->find(name) != nullptr;

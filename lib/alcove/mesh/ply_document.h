@@ -58,6 +58,7 @@ class PlyDocument : public SourceDocument {
 
     const PlyElement* find(std::string_view element) const;
     bool has_vertex_property(std::string_view name) const override;
+    bool has_comment(std::string_view beginning) const override;
 };
 
 /// The document of a mesh that came from elsewhere: `vertex` with x y z, and nx ny nz, s t, red green blue

@@ -129,6 +129,11 @@ class ElementWriter {
 
 std::string header_comments(const PlyDocument& document, const WriteOptions& options) {
     std::vector<std::string> lines = document.comments;
+    // What an earlier run said of values that this one replaces is no longer true.
+    for (const std::string& comment : options.comments)
+        std::erase_if(lines, [&](const std::string& line) {
+            return line.starts_with("comment " + comment.substr(0, comment.find(' ') + 1));
+        });
     for (std::string comment : options.comments) {
         std::replace_if(
             comment.begin(), comment.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');

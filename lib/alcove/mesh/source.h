@@ -12,6 +12,8 @@ class SourceDocument {
     virtual ~SourceDocument() = default;
     /// Whether each vertex came with a value of that name ("quality", "red", ...) that writing gives back.
     virtual bool has_vertex_property(std::string_view) const { return false; }
+    /// Whether a comment line of the file begins with that text.
+    virtual bool has_comment(std::string_view) const { return false; }
 
   protected:
     SourceDocument() = default;

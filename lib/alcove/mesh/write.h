@@ -9,7 +9,7 @@ namespace alcove {
 
 struct WriteOptions {
     std::vector<Color> colors;         ///< empty, or one a vertex: replaces the file's own colours
-    std::vector<std::string> comments; ///< provenance: one line each
+    std::vector<std::string> comments; ///< provenance: one line each, the first word naming the program
 };
 
 /// Whether write_mesh() knows the extension of `file`. \throw IoError if nothing can be written there: asked
@@ -22,8 +22,8 @@ bool can_write_mesh(const std::filesystem::path& file);
 /// input was binary little endian too, then the added attributes as float vertex properties in the order they
 /// were added (a property of the same name is replaced in place): NAME, of three components NAME_x NAME_y
 /// NAME_z, those of `bent_normal` bent_x bent_y bent_z. `colors` become uchar red green blue alpha. A comment
-/// the file holds already is not repeated. Other inputs get float coordinates, double where float would move
-/// a vertex by more than 1e-6 of the diagonal.
+/// of the file that begins with the first word of one of `comments` gives way to it. Other inputs get float
+/// coordinates, double where float would move a vertex by more than 1e-6 of the diagonal.
 ///
 /// OBJ: the input's text, in which only what follows x y z on the `v` lines changes, and that only if there
 /// are `colors`: a fourth coordinate gives way to r g b. No comments are added to it. Other inputs are
