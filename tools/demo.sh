@@ -6,7 +6,15 @@ tools/setup.sh
 cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 cmake --build build --target alcove_cli
 
+scan=build/meshes/meshes/armadillo.off
 mkdir -p build/demo
-build/alcove bake build/meshes/meshes/armadillo.off -o build/demo/armadillo_ao.ply
+build/alcove bake "$scan" -o build/demo/armadillo_ao.ply --radius 20% --rays 256
+view=(--radius 20% --size 800x800 --eye 120,95,-330 --look-at 5,5,0 --fov 36)
+build/alcove render "$scan" -o build/demo/armadillo_without.png "${view[@]}" --method none
+build/alcove render "$scan" -o build/demo/armadillo_with.png "${view[@]}"
+build/alcove render "$scan" -o build/demo/armadillo_ao.png "${view[@]}" --pass ao
 echo
-echo "The scan with ambient occlusion as vertex colours: $PWD/build/demo/armadillo_ao.ply (open it in MeshLab or Blender)"
+echo "Look at:"
+echo "  $PWD/build/demo/armadillo_without.png and armadillo_with.png: the scan without and with ambient occlusion"
+echo "  $PWD/build/demo/armadillo_ao.png: the occlusion alone"
+echo "  $PWD/build/demo/armadillo_ao.ply: the scan with occlusion as vertex colours, for MeshLab or Blender"

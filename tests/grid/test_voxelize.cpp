@@ -36,7 +36,7 @@ Errors errors_at_centres(const Bricks& level, Sign sign, const test::ExactSurfac
             level.origin() + level.voxel() * glm::round((on - level.origin()) / level.voxel() + outer * away);
         const double voxels = exact.distance(centre) / level.voxel();
         const bool inside = exact.winding_number(centre) > 0.5;
-        if (voxels > (inside ? sign == Sign::solid ? 1.9 : 1.7 : outer))
+        if (voxels > (inside ? sign == Sign::solid ? 1.9 : 0.5 : outer))
             continue;
         const double value = level.map(centre) / level.voxel();
         errors.push_back(std::fabs(std::fabs(value) - voxels));
