@@ -107,7 +107,7 @@ Scene scene_of_grid(const Options& options) {
     const LevelStack field(stack);
     try {
         Outline around = outline(field, stack.frame);
-        return {{field, stack.frame, around.box, stack.sign == Sign::sheet},
+        return {{field, stack.frame, around.box},
                 std::move(around.points),
                 stack.levels.front().voxel * stack.frame.diagonal,
                 stack.levels.size(),
@@ -123,7 +123,7 @@ Scene scene_of_mesh(const Options& options, nlohmann::ordered_json& seconds) {
     std::vector<Vec3d> points;
     std::copy_if(input.mesh.positions.begin(), input.mesh.positions.end(), std::back_inserter(points),
                  is_finite);
-    return {{LevelStack(input.stack), input.frame, input.mesh.box(), input.stack.sign == Sign::sheet},
+    return {{LevelStack(input.stack), input.frame, input.mesh.box()},
             std::move(points),
             input.stack.levels.front().voxel * input.frame.diagonal,
             input.stack.levels.size(),

@@ -21,7 +21,7 @@ Subject subject_of(AnyField field, const Vec3& low, const Vec3& high) {
     Box box;
     box.add(frame.to_scene(low));
     box.add(frame.to_scene(high));
-    return {std::move(field), frame, box, false};
+    return {std::move(field), frame, box};
 }
 
 constexpr float radius = 0.25f; // unit space
@@ -134,7 +134,7 @@ TEST(Renderer, OcclusionDarkensACornerAndOnlyAmbientLight) {
 
 TEST(Renderer, NothingButTheBoxIsDrawn) {
     const Subject subject{Union(Sphere{Vec3(-0.2f, 0.0f, 0.0f), 0.1f}, Sphere{Vec3(0.2f, 0.0f, 0.0f), 0.1f}),
-                          frame, subject_of(Plane{}, {0.09f, -0.1f, -0.1f}, {0.3f, 0.1f, 0.1f}).box, false};
+                          frame, subject_of(Plane{}, {0.09f, -0.1f, -0.1f}, {0.3f, 0.1f, 0.1f}).box};
     const Camera camera = camera_at({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {100, 60}, 50.0);
     const Image image = render(subject, camera, {});
     double left = 0.0, right = 0.0;
@@ -148,9 +148,9 @@ TEST(Renderer, EveryValueIsFiniteEvenWithoutAGradient) {
     struct Flat { // no gradient anywhere
         float map(const Vec3& p) const { return p.z > 0.0f ? 0.01f : -0.01f; }
         float resolution() const { return 0.01f; }
+        bool two_sided() const { return true; }
     };
-    Subject subject = subject_of(Flat{}, {-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f});
-    subject.sheet = true;
+    const Subject subject = subject_of(Flat{}, {-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f});
     const Vec3 eyes[] = {{0.2f, 0.1f, 1.0f}, {0.0f, 0.0f, -0.1f}, {0.3f, 0.3f, 0.0f}};
     for (const Vec3& eye : eyes) {
         const Image image = render(subject, camera_at(eye, {0.01f, 0.0f, -0.01f}, {40, 30}, 90.0),
@@ -168,16 +168,20 @@ TEST(Renderer, EveryValueIsFiniteEvenWithoutAGradient) {
     }
 }
 
-// A sheet as grids hold it: distances to the plane z = 0 on both sides, negative to 1.75 voxels behind
-// it.
+// A sheet as grids hold it: distances to the plane z = 0 on both sides, negative behind it at the corners of
+// cells that it passes through.
 struct Sheet {
     static constexpr float voxel = 0.01f;
+    // The plane leans a little against the grid, so that the layer's back has steps.
+    static float signed_distance(int x, int y, int z) {
+        return (static_cast<float>(z) - 0.1f * static_cast<float>(x) + 0.03f * static_cast<float>(y)) /
+               std::sqrt(1.0f + 0.1f * 0.1f + 0.03f * 0.03f);
+    }
     static float sample(int x, int y, int z) {
-        // The plane leans a little against the grid, so that the layer's back has steps.
-        const float d =
-            (static_cast<float>(z) - 0.1f * static_cast<float>(x) + 0.03f * static_cast<float>(y)) /
-            std::sqrt(1.0f + 0.1f * 0.1f + 0.03f * 0.03f);
-        return voxel * (d < -1.75f ? -d : d);
+        const float d = signed_distance(x, y, z);
+        // Of the neighbours with which it shares a cell, this one is furthest in front.
+        const bool crossed = signed_distance(x - 1, y + 1, z + 1) >= 0.0f;
+        return voxel * (d < 0.0f && !crossed ? -d : d);
     }
     float map(const Vec3& p) const {
         const Vec3 q = p / voxel, cell = glm::floor(q), t = q - cell;
@@ -190,11 +194,11 @@ struct Sheet {
         return sum;
     }
     float resolution() const { return voxel; }
+    bool two_sided() const { return true; }
 };
 
 TEST(Renderer, SheetSeenFromBehindIsSmooth) {
-    Subject subject = subject_of(Sheet{}, {-0.2f, -0.2f, -0.1f}, {0.2f, 0.2f, 0.1f});
-    subject.sheet = true;
+    const Subject subject = subject_of(Sheet{}, {-0.2f, -0.2f, -0.1f}, {0.2f, 0.2f, 0.1f});
     const Vec3 front = glm::normalize(Vec3(-0.1f, 0.03f, 1.0f));
     for (const float side : {1.0f, -1.0f}) {
         const Camera camera = camera_at({0.1f, 0.2f, side}, {0.0f, 0.0f, 0.0f}, {90, 60}, 15.0);

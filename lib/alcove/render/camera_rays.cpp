@@ -8,14 +8,18 @@
 namespace alcove {
 namespace {
 
-/// A distance does not change faster than the way: where a field does, it jumps.
-constexpr float steepest_slope = 1.3f;
+/// Voxels to the probes that tell how the field runs through a place, and that a ray goes on from there.
+constexpr float nearness = 0.1f;
 
-/// Voxels that a ray may get below a surface without a jump.
-constexpr float deepest_landing = 0.25f;
+/// A distance changes as much as the way. Across a jump it changes more, and the zero there is no surface.
+constexpr float steepest_slope = 1.15f;
 
-/// Voxels behind its faces where the distances of a sheet are smooth again.
-constexpr float behind_sheet = 2.75f;
+/// Where the field is flatter, or its direction close by and a little in front differ more than by this
+/// cosine, the place is that of a crease, or within a jump.
+constexpr float flattest_slope = 0.8f, least_agreement = 0.97f;
+
+/// Voxels between the zero within a jump and the face in front of it.
+constexpr float widest_jump = 1.5f;
 
 /// Where a ray is inside a box.
 struct Span {
@@ -37,8 +41,9 @@ struct Span {
     bool empty() const { return !(enter < leave); }
 };
 
-Vec3 direction_of(const RayBatch& rays, std::size_t i) {
-    return {rays.dx[i], rays.dy[i], rays.dz[i]};
+Vec3 normalized(const Vec3& v) {
+    const float length = glm::length(v);
+    return length > 0.0f ? v / length : Vec3(0.0f);
 }
 
 /// The unit normal on the eye's side. One that points away is mirrored in the plane across the ray, which is
@@ -57,11 +62,11 @@ Vec3 facing(const Vec3& gradient, const Vec3& direction) {
 RayPrecision::RayPrecision(float resolution)
     : voxel(resolution), hit_distance(std::max(0.02f * resolution, 1e-5f)),
       shortest_step(std::max(0.1f * resolution, 1e-5f)), difference(std::max(0.75f * resolution, 2e-4f)),
-      slack(2.5f * resolution + 1e-4f) {}
+      slack(0.5f * resolution + 1e-4f) {}
 
 CameraRays::CameraRays(const Subject& subject, const Camera& camera, int samples)
     : field_(subject.field), camera_(camera), frame_(subject.frame), precision_(resolution(subject.field)),
-      samples_(samples), sheet_(subject.sheet) {
+      samples_(samples), two_sided_(two_sided(subject.field)) {
     eye_ = (camera.eye() - frame_.center) / frame_.diagonal;
     low_ = (subject.box.min - frame_.center) / frame_.diagonal - Vec3d(precision_.slack);
     high_ = (subject.box.max - frame_.center) / frame_.diagonal + Vec3d(precision_.slack);
@@ -87,9 +92,8 @@ void CameraRays::trace(std::size_t begin, std::size_t end, std::size_t at, Hits&
             // All rays of a batch end at the same length, so each begins where that makes it leave the box.
             // Counting from there, not from the eye, keeps single precision enough for any eye.
             const double before = span.leave - far_;
-            rays.before[rays.count] = before;
-            rays.owner[rays.count] = at;
-            rays.push_back({Vec3(eye_ + before * ray), Vec3(ray)}, static_cast<float>(span.enter - before));
+            rays.add(Vec3(eye_ + before * ray), Vec3(ray), static_cast<float>(span.enter - before), before,
+                     at);
         }
         if (rays.count == RayBatch::capacity || (sample + 1 == end && rays.count > 0)) {
             meet(rays, hits);
@@ -98,126 +102,130 @@ void CameraRays::trace(std::size_t begin, std::size_t end, std::size_t at, Hits&
     }
 }
 
-CameraRays::Places CameraRays::places(const Batch& rays, const Selection& which, const Values& travelled) {
-    Places places;
-    for (std::size_t k = 0; k < which.count; ++k) {
-        const std::size_t i = which.ray[k];
-        places.x[k] = rays.x[i] + travelled[i] * rays.dx[i];
-        places.y[k] = rays.y[i] + travelled[i] * rays.dy[i];
-        places.z[k] = rays.z[i] + travelled[i] * rays.dz[i];
+void CameraRays::meet(Batch& rays, Hits& hits) const {
+    if (!two_sided_) {
+        const Batch met = traced(rays);
+        const Gradients gradient = differences(places(met), precision_.difference);
+        for (std::size_t i = 0; i < met.count; ++i)
+            set(met, i, gradient[i], hits);
+        return;
     }
+    // More jumps than the two of a thin wall are only met where faces cross; the last is taken for a surface.
+    constexpr int attempts = 6;
+    for (int attempt = 1; attempt <= attempts && rays.count > 0; ++attempt)
+        rays = meet_two_sided(rays, attempt == attempts, hits);
+}
+
+/// Sets what the rays meet, and returns those to trace further: from behind a sheet, distances jump before
+/// its face is reached. What is clearly a jump is passed; what may be one is kept unless the ray leaves a
+/// face right behind it.
+CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits) const {
+    const Batch met = traced(rays);
+    const float voxel = precision_.voxel, near = nearness * voxel;
+    const Values missing = distances(places(met));
+    const Gradients slope = differences(places(met), near);
+    // The cells of a face hold its distances; differences around a place on it would reach behind them.
+    Places in_front;
+    for (std::size_t i = 0; i < met.count; ++i)
+        in_front.add(met.place(i) + precision_.difference * normalized(slope[i]));
+    const Values distance = distances(in_front);
+    const Gradients gradient = differences(in_front, precision_.difference);
+
+    Batch further;
+    for (std::size_t i = 0; i < met.count; ++i) {
+        const float start = met.travelled[i] + near;
+        if (distance[i] > steepest_slope * precision_.difference && !last) {
+            further.add(met, i, start, 0.0f);
+            continue;
+        }
+        const Vec3 normal = normalized(gradient[i]);
+        const float along = glm::dot(normal, met.direction(i));
+        const bool doubtful = std::fabs(missing[i]) > 0.5f * near ||
+                              glm::length(slope[i]) < flattest_slope * 2.0f * near ||
+                              glm::dot(normalized(slope[i]), normal) < least_agreement;
+        const bool behind = glm::dot(slope[i], met.direction(i)) > 0.0f;
+        if (!hits.surfels[met.owner[i]].has_normal() || (!doubtful && behind))
+            set(met, i, behind ? -normal : normal, hits);
+        if (doubtful) {
+            const float end = start + widest_jump * voxel / std::max(std::fabs(along), 0.1f);
+            further.add(met, i, start, end - far_);
+        }
+    }
+    return further;
+}
+
+/// Those of the rays that meet the surface, up to there.
+CameraRays::Batch CameraRays::traced(Batch& rays) const {
+    const Values start = rays.travelled;
+    alcove::trace(field_, rays,
+                  {.far = far_,
+                   .hit_distance = precision_.hit_distance,
+                   .shortest_step = precision_.shortest_step,
+                   .two_sided = two_sided_});
+    Batch met;
+    Values earliest;
+    for (std::size_t i = 0; i < rays.count; ++i)
+        if (rays.hit[i]) {
+            earliest[met.count] = start[i];
+            met.add(rays, i, rays.travelled[i], 0.0f);
+        }
+
+    // From behind, distances grow along the ray.
+    Values sign;
+    sign.fill(1.0f);
+    if (two_sided_) {
+        const float near = nearness * precision_.voxel;
+        const Values before = distances(places(met, -near)), after = distances(places(met, near));
+        for (std::size_t i = 0; i < met.count; ++i)
+            sign[i] = after[i] > before[i] ? -1.0f : 1.0f;
+    }
+    constexpr int refinements = 3;
+    for (int round = 0; round < refinements; ++round) {
+        const Values distance = distances(places(met));
+        for (std::size_t i = 0; i < met.count; ++i)
+            met.travelled[i] = std::max(met.travelled[i] + sign[i] * distance[i], earliest[i]);
+    }
+    return met;
+}
+
+void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, Hits& hits) const {
+    const Vec3 direction = rays.direction(i);
+    hits.surfels[rays.owner[i]] = {rays.place(i), facing(gradient, direction)};
+    const double length = (rays.before[i] + static_cast<double>(rays.travelled[i])) * frame_.diagonal;
+    hits.depths[rays.owner[i]] = static_cast<float>(length * glm::dot(Vec3d(direction), camera_.forward()));
+}
+
+CameraRays::Places CameraRays::places(const Batch& rays, float ahead) {
+    Places places;
+    for (std::size_t i = 0; i < rays.count; ++i)
+        places.add(rays.place(i, ahead));
     return places;
 }
 
-void CameraRays::set(const Batch& rays, std::size_t i, const Surfel& surfel, Hits& hits) const {
-    hits.surfels[rays.owner[i]] = surfel;
-    const double length = (rays.before[i] + static_cast<double>(rays.travelled[i])) * frame_.diagonal;
-    hits.depths[rays.owner[i]] =
-        static_cast<float>(length * glm::dot(Vec3d(direction_of(rays, i)), camera_.forward()));
+CameraRays::Values CameraRays::distances(const Places& places) const {
+    Values values;
+    map_batch(field_, places.points(), any_reach, values.data());
+    return values;
 }
 
-void CameraRays::meet(Batch& rays, Hits& hits) const {
-    const Values start = rays.travelled;
-    alcove::trace(
-        field_, rays,
-        {.far = far_, .hit_distance = precision_.hit_distance, .shortest_step = precision_.shortest_step});
-    Selection hit;
-    for (std::size_t i = 0; i < rays.count; ++i)
-        if (rays.hit[i])
-            hit.add(i);
-
-    const Values landed = rays.travelled;
-    std::array<bool, RayBatch::capacity> too_deep{};
-    constexpr int refinements = 3;
-    for (int round = 0; round < refinements; ++round) {
-        Values distance;
-        map_batch(field_, places(rays, hit, rays.travelled).points(hit.count), any_reach, distance.data());
-        for (std::size_t k = 0; k < hit.count; ++k) {
-            const std::size_t i = hit.ray[k];
-            too_deep[i] = too_deep[i] || distance[k] < -deepest_landing * precision_.voxel;
-            rays.travelled[i] = std::max(rays.travelled[i] + distance[k], start[i]);
-        }
-    }
-
-    const Places met = places(rays, hit, rays.travelled);
-    std::array<Vec3, RayBatch::capacity> gradient;
-    differences(met.points(hit.count), gradient.data());
-    Selection back;
-    for (std::size_t k = 0; k < hit.count; ++k) {
-        const std::size_t i = hit.ray[k];
-        const Vec3 direction = direction_of(rays, i);
-        set(rays, i, {met.points(hit.count)[k], facing(gradient[k], direction)}, hits);
-        if (too_deep[i] || glm::dot(gradient[k], direction) > 0.0f ||
-            glm::length(gradient[k]) > steepest_slope * 2.0f * precision_.difference)
-            back.add(i);
-    }
-    if (sheet_ && back.count > 0)
-        go_through(rays, back, landed, hits);
-}
-
-/// A sheet is solid in a thin layer behind its faces. From behind, a ray falls into that layer where
-/// distances jump, along the steps of the voxels; the face is where it comes out again. The occlusion there
-/// is that of a point behind the layer. Rays that meet no jump stay as they are.
-void CameraRays::go_through(Batch& rays, const Selection& back, Values travelled, Hits& hits) const {
-    const float stride = 0.25f * precision_.voxel;
-    constexpr int rounds_before = 32, rounds = 72;
-    for (std::size_t k = 0; k < back.count; ++k)
-        travelled[back.ray[k]] -= rounds_before * stride;
-    Values distance, last;
-    last.fill(-1.0f);
-    std::array<bool, RayBatch::capacity> jumped{}, within{};
-    for (int round = 0; round < rounds; ++round) {
-        map_batch(field_, places(rays, back, travelled).points(back.count), any_reach, distance.data());
-        for (std::size_t k = 0; k < back.count; ++k) {
-            // Further out, distances change a little where a finer level takes over.
-            jumped[k] = jumped[k] || (last[k] < behind_sheet * precision_.voxel &&
-                                      last[k] - distance[k] > steepest_slope * stride);
-            within[k] = within[k] || (jumped[k] && distance[k] < -stride);
-            travelled[back.ray[k]] += within[k] ? -distance[k] : stride;
-            last[k] = distance[k];
-        }
-    }
-
-    // The layer is too thin for differences within it: those in front of the face tell the same.
-    Values in_front = travelled;
-    for (std::size_t k = 0; k < back.count; ++k)
-        in_front[back.ray[k]] += precision_.voxel;
-    const Places clear = places(rays, back, in_front);
-    map_batch(field_, clear.points(back.count), any_reach, distance.data());
-    std::array<Vec3, RayBatch::capacity> gradient;
-    differences(clear.points(back.count), gradient.data());
-    const Places faces = places(rays, back, travelled);
-    for (std::size_t k = 0; k < back.count; ++k) {
-        const std::size_t i = back.ray[k];
-        // At its rim a layer is left by another jump.
-        const bool by_jump = distance[k] > steepest_slope * precision_.voxel;
-        if (!within[k] || by_jump || std::fabs(last[k]) > stride ||
-            glm::dot(gradient[k], direction_of(rays, i)) <= 0.0f)
-            continue;
-        rays.travelled[i] = travelled[i];
-        const Vec3 normal = facing(-gradient[k], direction_of(rays, i));
-        set(rays, i, {faces.points(back.count)[k] + behind_sheet * precision_.voxel * normal, normal}, hits);
-    }
-}
-
-/// Differences of the field along the axes, around points on the surface.
-void CameraRays::differences(const Points& points, Vec3* gradient) const {
-    const float h = precision_.difference;
-    Values shifted, above, below;
-    const float* const all[3] = {points.x, points.y, points.z};
+/// Differences of the field along the axes, over twice h.
+CameraRays::Gradients CameraRays::differences(const Places& places, float h) const {
+    Gradients gradient;
+    Values above, below;
     for (int axis = 0; axis < 3; ++axis) {
         const auto probe = [&](float shift, float* values) {
-            for (std::size_t k = 0; k < points.count; ++k)
-                shifted[k] = all[axis][k] + shift;
-            const float* moved[3] = {all[0], all[1], all[2]};
-            moved[axis] = shifted.data();
-            map_batch(field_, Points{moved[0], moved[1], moved[2], points.count}, 2.0f * h, values);
+            Places moved = places;
+            Values& coordinate = axis == 0 ? moved.x : axis == 1 ? moved.y : moved.z;
+            for (std::size_t i = 0; i < places.count; ++i)
+                coordinate[i] += shift;
+            map_batch(field_, moved.points(), 2.0f * h, values);
         };
         probe(h, above.data());
         probe(-h, below.data());
-        for (std::size_t k = 0; k < points.count; ++k)
-            gradient[k][axis] = above[k] - below[k];
+        for (std::size_t i = 0; i < places.count; ++i)
+            gradient[i][axis] = above[i] - below[i];
     }
+    return gradient;
 }
 
 }

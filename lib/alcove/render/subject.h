@@ -11,8 +11,6 @@ struct Subject {
     AnyField field; ///< unit space
     Frame frame;    ///< of that unit space
     Box box;        ///< scene units; nothing outside it is drawn
-    /// Negative only in a thin layer behind the faces (Sign::sheet): faces are looked for from behind too.
-    bool sheet = false;
 };
 
 /// The subject of a field without a mesh, within the cube of side 1 around the origin of unit space: cells of
