@@ -62,7 +62,7 @@ Vec3 facing(const Vec3& gradient, const Vec3& direction) {
 RayPrecision::RayPrecision(float resolution)
     : voxel(resolution), hit_distance(std::max(0.02f * resolution, 1e-5f)),
       shortest_step(std::max(0.1f * resolution, 1e-5f)), difference(std::max(0.75f * resolution, 2e-4f)),
-      slack(0.5f * resolution + 1e-4f) {}
+      slack(2.5f * resolution + 1e-4f) {}
 
 CameraRays::CameraRays(const Subject& subject, const Camera& camera, int samples)
     : field_(subject.field), camera_(camera), frame_(subject.frame), precision_(resolution(subject.field)),
@@ -140,10 +140,11 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
         }
         const Vec3 normal = normalized(gradient[i]);
         const float along = glm::dot(normal, met.direction(i));
-        const bool doubtful = std::fabs(missing[i]) > 0.5f * near ||
-                              glm::length(slope[i]) < flattest_slope * 2.0f * near ||
-                              glm::dot(normalized(slope[i]), normal) < least_agreement;
-        const bool behind = glm::dot(slope[i], met.direction(i)) > 0.0f;
+        const bool smooth = glm::length(slope[i]) > flattest_slope * 2.0f * near &&
+                            glm::dot(normalized(slope[i]), normal) > least_agreement;
+        const bool doubtful = !smooth || std::fabs(missing[i]) > 0.5f * near;
+        // Only what is smooth may lean away at a silhouette.
+        const bool behind = (smooth ? glm::dot(slope[i], met.direction(i)) : along) > 0.0f;
         if (!hits.surfels[met.owner[i]].has_normal() || (!doubtful && behind))
             set(met, i, behind ? -normal : normal, hits);
         if (doubtful) {

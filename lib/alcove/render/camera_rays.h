@@ -27,7 +27,7 @@ struct RayPrecision {
     float hit_distance;  ///< from where on a hit is refined
     float shortest_step; ///< of a ray
     float difference;    ///< between a point and each probe of its normal
-    float slack;         ///< around the box
+    float slack;         ///< around the box: behind a sheet, distances jump up to two voxels off its faces
 
     explicit RayPrecision(float resolution);
 };
