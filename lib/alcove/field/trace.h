@@ -80,7 +80,10 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
                 continue;
             }
             previous[i] = d;
-            stepped[i] = std::max(options.two_sided ? std::fabs(d) : d, options.shortest_step);
+            // From behind, interpolated distances are a little too long, and nothing tells a sheet that a
+            // step went through.
+            constexpr float caution = 0.85f;
+            stepped[i] = std::max(options.two_sided ? caution * std::fabs(d) : d, options.shortest_step);
             rays.travelled[i] += stepped[i];
             active[left] = i;
             left += rays.travelled[i] < options.far;
