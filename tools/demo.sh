@@ -9,7 +9,7 @@ cmake --build build --target alcove_cli
 scan=build/meshes/meshes/armadillo.off
 mkdir -p build/demo
 build/alcove bake "$scan" -o build/demo/armadillo_ao.ply --radius 50% --rays 256
-view=(--radius 50% --size 720x720 --eye 110,110,-280 --look-at 2,28,0 --fov 35)
+view=(--radius 50% --size 720x720 --eye "110,110,-280" --look-at "2,28,0" --fov 35)
 build/alcove render "$scan" -o build/demo/armadillo_without.png "${view[@]}" --method none
 build/alcove render "$scan" -o build/demo/armadillo_with.png "${view[@]}"
 build/alcove render "$scan" -o build/demo/armadillo_ao.png "${view[@]}" --pass ao
