@@ -18,7 +18,7 @@ enum class SignChoice {
 struct VoxelizeOptions {
     GridOptions grid;
     SignChoice sign = SignChoice::automatic;
-    /// Told after each finished level: how much of the work is done, in [0, 1]. Called on the calling thread.
+    /// Told how much of the work is done, in [0, 1], a few times. Called on the calling thread.
     std::function<void(double done)> progress = {};
 };
 

@@ -16,7 +16,21 @@ struct Classic {
     float radius = 0.1f; ///< furthest probe, > 0
     int samples = 5; ///< probes, >= 2; the sum is weighted by 5/samples, so that more of them do not darken
 
+    static constexpr std::string_view name = "classic";
+    static constexpr std::string_view summary =
+        "probes along the normal, weighted sum of what is nearer than over a plane";
+    static constexpr std::string_view formula = "clamp(1 - 3 sum 0.95^i (h_i - d(p + h_i n))), i = 0..4";
+    static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
+    static constexpr std::string_view cost = "samples (5)";
     static constexpr float document_radius = 0.13f;
+
+    static Classic from(const EstimatorOptions& options) {
+        // In unit space nothing is further than the diagonal.
+        Classic classic{.radius = std::min(options.radius, 1.0f)};
+        if (options.samples > 0)
+            classic.samples = std::max(options.samples, 2);
+        return classic;
+    }
 
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, float* ao) const {

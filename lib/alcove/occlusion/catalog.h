@@ -10,15 +10,7 @@
 
 namespace alcove {
 
-/// What a user may set; an estimator takes what concerns it.
-struct EstimatorOptions {
-    float radius = 0.1f; ///< units of the field; may be infinite
-    int samples = 0;     ///< probes a surfel; 0: the method's own
-    int rays = 0;        ///< rays a surfel; 0: the method's own
-    std::uint32_t seed = 0;
-};
-
-/// An estimator with the fields of its catalog line.
+/// An estimator behind function pointers, as its struct describes itself.
 struct Method {
     std::string_view name;
     std::string_view summary;

@@ -6,6 +6,9 @@
 ///         void operator()(const F& field, const SurfelBatch& surfels, float* ao) const;
 ///     };
 ///
+/// To be chosen by name at run time it also says what it is and takes its parameters from EstimatorOptions,
+/// as Classic does, and has its line in catalog.cpp; `bake()` asks for neither.
+///
 /// It writes one visibility a surfel of the batch, in [0, 1]; every surfel of a batch has a normal. Lengths
 /// are in the units of the field. `const` and without state, so that any number of threads share one
 /// estimator.
@@ -16,6 +19,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 namespace alcove {
 
@@ -35,6 +40,14 @@ struct SurfelBatch {
     }
     Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
     Vec3 normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
+};
+
+/// What a user may set; an estimator takes what concerns it.
+struct EstimatorOptions {
+    float radius = 0.1f; ///< units of the field; may be infinite
+    int samples = 0;     ///< probes a surfel; 0: the method's own
+    int rays = 0;        ///< rays a surfel; 0: the method's own
+    std::uint32_t seed = 0;
 };
 
 template <class E, class F>

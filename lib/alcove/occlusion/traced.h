@@ -46,6 +46,19 @@ struct Traced {
     bool cosine_weighted = true;
     std::uint32_t seed = 0;
 
+    static constexpr std::string_view name = "traced";
+    static constexpr std::string_view summary = "sphere-traced rays over the hemisphere, cosine-weighted";
+    static constexpr std::string_view formula = "1/N sum V(w_i)";
+    static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
+    static constexpr std::string_view cost = "6 + rays (64) x 5-20";
+
+    static Traced from(const EstimatorOptions& options) {
+        Traced traced{.radius = options.radius, .seed = options.seed};
+        if (options.rays > 0)
+            traced.rays = options.rays;
+        return traced;
+    }
+
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, float* ao) const {
         // In voxels for grids; for exact fields the contract of the reference, 1e-4 of the diagonal.
