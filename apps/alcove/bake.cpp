@@ -61,6 +61,10 @@ void run(const BakeOptions& options) {
     const Method& method = parse_method(options.method);
     const NormalSource normals = parse_normals(options.normals);
     const ColorEncoding encoding = parse_encoding(options.color_encoding);
+    if (options.color == "none" && extension(options.output) == ".obj")
+        throw UsageError(options.output +
+                         ": an .obj holds occlusion as colours alone: leave out --color none, or write a "
+                         ".ply");
     if (!options.color.empty() && options.color != "ao" && options.color != "none")
         throw UsageError(fmt::format("--color takes ao or none, not '{}'", options.color));
     if (!can_write_mesh(options.output))
@@ -102,10 +106,13 @@ void run(const BakeOptions& options) {
     writing.comments.push_back(fmt::format("alcove {}: ambient occlusion by {}, radius {:.6g}, voxel {:.6g}",
                                            ALCOVE_VERSION, method.name, radius, voxel));
     const bool colored = wants_colors(options.color, mesh);
+    if (!colored && extension(options.output) == ".obj")
+        throw UsageError(options.output +
+                         ": an .obj holds occlusion as colours alone, and the input has its own: add "
+                         "--color ao to replace them, or write a .ply");
     if (colored)
         writing.colors = grey_colors(ao, encoding);
-    // An .obj holds the values as colours alone.
-    if (!colored || extension(options.output) != ".obj")
+    if (extension(options.output) != ".obj")
         mesh.set_attribute({"ao", 1, ao});
     if (colored && extension(options.output) == ".ply")
         mesh.set_attribute({"quality", 1, std::move(ao)});
@@ -145,7 +152,7 @@ void add_bake(CLI::App& program) {
     verb->add_option("-o,--output", options->output, "Mesh to write (ply, obj)")->required();
     add_radius_option(*verb, options->grid,
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
-    verb->add_option("--method", options->method, "Estimator: traced or classic")
+    verb->add_option("--method", options->method, "Estimator: " + method_names())
         ->type_name("NAME")
         ->capture_default_str();
     verb->add_option("--samples", options->estimator.samples, "Probes a vertex (classic; default 5)")

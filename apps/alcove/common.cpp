@@ -49,6 +49,13 @@ const Method& parse_method(const std::string& name) {
     }
 }
 
+std::string method_names() {
+    std::string names;
+    for (const Method& method : catalog())
+        names += (names.empty() ? "" : ", ") + std::string(method.name);
+    return names;
+}
+
 std::string grouped(std::size_t number) {
     std::string digits = std::to_string(number);
     for (std::size_t at = digits.size(); at > 3;)

@@ -38,6 +38,9 @@ void print_warnings(const std::vector<std::string>& warnings, const CommonOption
 /// The estimator of that name. \throw UsageError listing the known ones.
 const Method& parse_method(const std::string& name);
 
+/// The names of the catalog, one after the other.
+std::string method_names();
+
 /// `3412` as `3,412`.
 std::string grouped(std::size_t number);
 

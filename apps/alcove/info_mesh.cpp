@@ -110,8 +110,8 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
     const bool solid = d.closed() && d.inverted_components == 0;
     facts.add("sign", solid ? "solid" : "sheet",
               d.components == 0 ? "none: there is nothing to bake"
-              : solid ? "a solid, distances are negative inside (unless it turns out to overlap itself)"
-                      : "a sheet, faces occlude from both sides and no inside is assumed");
+              : solid           ? "a solid, unless its voxels show that parts of it overlap or are nested"
+                                : "a sheet, faces occlude from both sides and no inside is assumed");
 }
 
 }

@@ -32,18 +32,18 @@ Length parse_length(const std::string& text, const std::string& option) {
 }
 
 float Length::to_unit(double diagonal, float voxel) const {
-    switch (unit) {
-    case Unit::scene:
-        return static_cast<float>(value / diagonal);
-    case Unit::diagonal:
-        return static_cast<float>(value);
-    case Unit::voxels:
-        break;
-    }
-    if (voxel <= 0.0f)
+    if (unit == Unit::voxels && voxel <= 0.0f)
         throw UsageError(
             "a length in vx needs the voxel itself to be set: give --voxel as a length or a percentage");
-    return static_cast<float>(value * voxel);
+    const double length = unit == Unit::scene      ? value / diagonal
+                          : unit == Unit::diagonal ? value
+                                                   : value * voxel;
+    if (length < 1e-12 || (length > 1e6 && std::isfinite(length)))
+        throw UsageError(
+            fmt::format("a length of {:.3g} is {:.3g} times the diagonal of the mesh ({:.3g}): write it "
+                        "in the mesh's units, or as a percentage of the diagonal",
+                        length * diagonal, length, diagonal));
+    return static_cast<float>(length);
 }
 
 }

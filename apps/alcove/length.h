@@ -10,7 +10,8 @@ struct Length {
     double value = 0.0;
     Unit unit = Unit::scene;
 
-    /// In unit space, where the diagonal is 1. \throw UsageError for voxels where `voxel` (unit space) is 0.
+    /// In unit space, where the diagonal is 1. \throw UsageError for voxels where `voxel` (unit space) is 0,
+    /// and for lengths that no mesh of that diagonal can be meant to have.
     float to_unit(double diagonal, float voxel = 0.0f) const;
 };
 

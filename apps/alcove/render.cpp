@@ -2,6 +2,7 @@
 #include "length.h"
 #include "voxelized.h"
 
+#include "alcove/atomic_file.h"
 #include "alcove/errors.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/grid_io.h"
@@ -102,6 +103,8 @@ CameraOptions camera_options(const Options& options) {
 }
 
 Scene scene_of_grid(const Options& options) {
+    if (options.grid.voxel != "auto" || options.grid.sign != "auto")
+        throw UsageError("--voxel and --sign are for meshes: " + options.input + " is a grid already");
     const Length radius = parse_length(options.grid.radius, "--radius");
     const GridStack stack = read_grids(options.input);
     const LevelStack field(stack);
@@ -143,6 +146,7 @@ void run(const Options& options) {
     if (format != ".exr" && format != ".png")
         throw UsageError(
             fmt::format("{}: an image is written as .exr or .png; name the output so", options.output));
+    const AtomicFile probe(options.output);
     std::vector<Pass> passes;
     for (const std::string& pass : options.passes)
         passes.push_back(parse_pass(pass));
@@ -191,6 +195,9 @@ void run(const Options& options) {
         warnings.push_back(
             "the picture is empty: the camera does not see the subject; leave out --eye and --look-at");
     print_warnings(warnings, options.common);
+    if (!options.common.json && !options.common.quiet)
+        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}, voxel {:.4g}\n", options.output,
+                   size.width, size.height, options.method, scene.radius * diagonal, scene.voxel);
     if (options.common.json)
         print_json({{"input", options.input},
                     {"output", options.output},
@@ -222,7 +229,7 @@ void add_render(CLI::App& program) {
     verb->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
     add_radius_option(*verb, options->grid,
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
-    verb->add_option("--method", options->method, "Estimator, or none")
+    verb->add_option("--method", options->method, "Estimator, or none: " + method_names())
         ->type_name("NAME")
         ->capture_default_str();
     verb->add_option("--pass", options->passes, "What a png shows: beauty (default), ao, normal or depth")

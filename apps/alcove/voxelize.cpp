@@ -19,8 +19,7 @@ struct VoxelizeVerbOptions {
 
 void run(const VoxelizeVerbOptions& options) {
     const ThreadLimit limit(options.common.threads);
-    if (extension(options.output) != ".vdb")
-        throw UsageError(options.output + ": grids are written as .vdb; name the output so");
+    check_grid_output(options.output);
     nlohmann::ordered_json seconds;
     const VoxelizedMesh input = read_and_voxelize(options.input, options.grid, options.common, seconds);
     Stopwatch watch;

@@ -16,8 +16,10 @@ void parallel_for(std::size_t count, std::size_t grain,
 }
 
 ThreadLimit::ThreadLimit(unsigned threads) {
+    constexpr unsigned most = 4096; // beyond it, the library that runs them asks for memory without end
     if (threads > 0)
-        control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, threads);
+        control_ =
+            new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::min(threads, most));
 }
 
 ThreadLimit::~ThreadLimit() {

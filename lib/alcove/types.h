@@ -3,8 +3,7 @@
 /// Two spaces:
 ///  - *scene space*: the file's coordinates, in double precision. Meshes and anything read or written.
 ///  - *unit space*: recentred on the box of the mesh and divided by its diagonal D, in single precision.
-///  Grids,
-///    fields, surfels and radii. A radius of 10 % of D is 0.1 here, whatever the size and place of the scene,
+///    Grids, fields, surfels and radii. A radius of 10 % of D is 0.1 here, whatever the size and place of the scene,
 ///    so the numbers behind a bake do not depend on either. A Frame maps one to the other.
 ///
 /// Signs: a distance is positive outside (in the air), negative inside (in the solid), zero on the surface.

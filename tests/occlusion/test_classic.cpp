@@ -57,6 +57,25 @@ TEST(Classic, IsOneOnAPlaneWhateverTheSamples) {
             EXPECT_NEAR(ao, 1.0f, 1e-6f);
 }
 
+TEST(Classic, MoreSamplesTendToTheIntegral) {
+    const Union corner(Plane{}, Plane{{1, 0, 0}, 0.0f});
+    const std::vector<Surfel> surfels{{{0.05f, 0, 0}, {0, 1, 0}}};
+    const auto ao = [&](int samples) {
+        return bake(surfels, corner, Classic{.radius = Classic::document_radius, .samples = samples}).front();
+    };
+    // The weighted mean of h - min(h, 0.05) over the heights, times what five weights come to.
+    double integral = 0.0, weights = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+        const double t = (i + 0.5) / 100000, h = 0.01 + 0.12 * t, weight = std::pow(0.95, 4 * t);
+        integral += weight * (h - std::fmin(h, 0.05));
+        weights += weight;
+    }
+    const double five = 1 + 0.95 + std::pow(0.95, 2) + std::pow(0.95, 3) + std::pow(0.95, 4);
+    const double expected = 1.0 - 3.0 * five * integral / weights;
+    EXPECT_NEAR(ao(1000), expected, 1e-3);
+    EXPECT_NEAR(ao(5), expected, 0.05);
+}
+
 TEST(Classic, DarkensTowardACornerAndWithTheRadius) {
     const Union corner(Plane{}, Plane{{1, 0, 0}, 0.0f});
     float last = 0.0f;

@@ -208,7 +208,7 @@ openvdb::FloatGrid::Ptr Band::level_set(Sign sign, BandWidth width, double value
     return grid;
 }
 
-double contradictions(const openvdb::FloatGrid& solid, double scene_voxel) {
+double contradictions(const openvdb::FloatGrid& solid) {
     std::vector<const FloatTree::LeafNodeType*> leaves;
     solid.tree().getNodes(leaves);
     std::atomic<std::size_t> crossings{0}, false_crossings{0};
@@ -224,7 +224,7 @@ double contradictions(const openvdb::FloatGrid& solid, double scene_voxel) {
                     if ((other < 0.0f) == (*voxel < 0.0f))
                         continue;
                     ++crossed;
-                    wrong += std::fabs(other) + std::fabs(*voxel) > 1.1 * scene_voxel;
+                    wrong += std::fabs(other) + std::fabs(*voxel) > 1.1f;
                 }
         crossings += crossed;
         false_crossings += wrong;

@@ -54,6 +54,6 @@ class Band {
 /// two voxels is no further than a voxel from both together: 0 for a solid, large where the surface is open,
 /// nested, inside out or overlaps itself. Reads every active voxel and its neighbours, filled inside
 /// included.
-double contradictions(const openvdb::FloatGrid& solid, double scene_voxel);
+double contradictions(const openvdb::FloatGrid& solid);
 
 }

@@ -3,6 +3,7 @@
 #include "alcove/atomic_file.h"
 #include "alcove/errors.h"
 #include "alcove/grid/vdb.h"
+#include "alcove/mesh/mesh.h"
 #include "alcove/parallel.h"
 
 #include <fmt/format.h>
@@ -126,14 +127,20 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     stack.frame.center = {number(finest, "alcove:center_x"), number(finest, "alcove:center_y"),
                           number(finest, "alcove:center_z")};
     stack.frame.diagonal = number(finest, "alcove:diagonal");
+    if (!is_finite(stack.frame.center) || !std::isfinite(stack.frame.diagonal))
+        refuse(file, "has lost part of its alcove metadata: write it again");
     stack.value_unit = value_unit_of(stack.frame);
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
         LevelSet level = level_of(grid, stack, file);
-        level.voxel = static_cast<float>(number(*grid, "alcove:voxel"));
+        const double voxel = number(*grid, "alcove:voxel");
+        if (!(std::fabs(voxel - double(level.voxel)) <= 1e-5 * voxel))
+            refuse(file, fmt::format("grid '{}' was scaled after alcove wrote it: voxelize the mesh again",
+                                     grid->getName()));
+        level.voxel = static_cast<float>(voxel);
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
-        if (!(level.voxel > 0.0f) || !(level.outer_band >= 3.0f))
+        if (!(level.outer_band >= 3.0f))
             refuse(file,
                    fmt::format("grid '{}' has lost its alcove metadata: write it again", grid->getName()));
         stack.levels.push_back(std::move(level));
@@ -203,8 +210,11 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         archive.setCompression(io::COMPRESS_BLOSC | io::COMPRESS_ACTIVE_MASK);
         archive.write(grids);
         archive.close();
-    } catch (const openvdb::Exception& error) {
-        throw IoError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+        // OpenVDB does not notice a full disk: only what can be read again takes the place of the old file.
+        read_all(out.temporary());
+    } catch (const std::exception& error) {
+        throw IoError(
+            fmt::format("{}: cannot be written whole, is the disk full? ({})", file.string(), error.what()));
     }
     out.commit();
 }

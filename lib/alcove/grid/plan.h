@@ -29,9 +29,9 @@ struct LevelPlan {
 };
 
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
-/// from area / voxel². \throw LimitError if a voxel that was asked for needs more than the limit or more than
-/// 2^20 voxels along the
-///        diagonal, naming the finest voxel that fits. A voxel of 0 is coarsened until it fits.
+/// from area / voxel². A voxel of 0 is coarsened until it fits.
+/// \throw LimitError if a voxel that was asked for needs more than the limit or more than 2^20 voxels along
+/// the diagonal, naming the finest voxel that fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
 
 }

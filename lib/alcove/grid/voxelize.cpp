@@ -63,7 +63,7 @@ Sign choose_sign(SignChoice choice, const Closedness& surface, const Band& fines
         if (!surface.closed() || surface.inverted_components > 0)
             return Sign::sheet;
     }
-    const double wrong = contradictions(*finest.level_set(Sign::solid, width, 1.0), 1.0);
+    const double wrong = contradictions(*finest.level_set(Sign::solid, width, 1.0));
     if (wrong <= tolerated_contradictions)
         return Sign::solid;
     if (choice == SignChoice::automatic)
@@ -109,7 +109,12 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     if (surface.size() == 0)
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
 
-    // Shares of the time as measured on scans of 50,000 to 900,000 triangles.
+    if (plan.voxel > 0.25f * options.grid.radius)
+        stack.warnings.push_back(fmt::format(
+            "the voxel is {:.2g} of the radius, too coarse to tell occlusion: use a voxel of {:.2g} % of "
+            "the diagonal or less",
+            plan.voxel / options.grid.radius, 12.5 * options.grid.radius));
+    // Rough shares of the time.
     const auto done = [&](double share) {
         if (options.progress)
             options.progress(share);

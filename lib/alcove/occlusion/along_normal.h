@@ -14,7 +14,7 @@ namespace alcove {
 /// Exact on planes and convex shapes (1). Cost: `samples` map() calls a surfel.
 struct Classic {
     float radius = 0.1f; ///< furthest probe, > 0
-    int samples = 5; ///< probes, >= 2; the sum is weighted by 5/samples, so that more of them do not darken
+    int samples = 5;     ///< probes, >= 2, at heights and weights spread over those of the five
 
     static constexpr std::string_view name = "classic";
     static constexpr std::string_view summary =
@@ -35,15 +35,19 @@ struct Classic {
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, float* ao) const {
         const float scale = radius / document_radius;
-        const float strength = 3.0f * 5.0f / static_cast<float>(samples);
+        constexpr float sum_of_five =
+            1.0f + 0.95f + 0.95f * 0.95f + 0.95f * 0.95f * 0.95f + 0.95f * 0.95f * 0.95f * 0.95f;
         SurfelBatch::Values occlusion{}, distances;
-        float weight = 1.0f;
-        for (int i = 0; i < samples; ++i, weight *= 0.95f) {
-            const float height = 0.01f + 0.12f * static_cast<float>(i) / static_cast<float>(samples - 1);
+        float sum_of_weights = 0.0f;
+        for (int i = 0; i < samples; ++i) {
+            const float t = static_cast<float>(i) / static_cast<float>(samples - 1);
+            const float height = 0.01f + 0.12f * t, weight = std::pow(0.95f, 4.0f * t);
+            sum_of_weights += weight;
             probe_along_normal(field, surfels, height * scale, distances.data());
             for (std::size_t k = 0; k < surfels.count; ++k)
                 occlusion[k] += weight * (height - distances[k] / scale);
         }
+        const float strength = 3.0f * sum_of_five / sum_of_weights;
         for (std::size_t k = 0; k < surfels.count; ++k)
             ao[k] = std::clamp(1.0f - strength * occlusion[k], 0.0f, 1.0f);
     }

@@ -1,5 +1,7 @@
 #include "alcove/occlusion/bake.h"
 
+#include <algorithm>
+
 namespace alcove {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include "alcove/types.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>

@@ -38,7 +38,7 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
 /// V = 0 where the ray meets the surface within the radius. Source: "04 Ambient Occlusion", lecture notes.
-/// Rays start at a height above the surface of one voxel, or of 1e-4 for exact fields. Cost: rays × 5–20
+/// Rays start where the field answers a tenth of a voxel, or 1e-4 for exact fields. Cost: rays × 5–20
 /// map() calls a surfel.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
@@ -53,7 +53,8 @@ struct Traced {
     static constexpr std::string_view cost = "6 + rays (64) x 5-20";
 
     static Traced from(const EstimatorOptions& options) {
-        Traced traced{.radius = options.radius, .seed = options.seed};
+        // In unit space nothing is further than the diagonal, and a miss beyond it costs steps for nothing.
+        Traced traced{.radius = std::min(options.radius, 1.0f), .seed = options.seed};
         if (options.rays > 0)
             traced.rays = options.rays;
         return traced;
