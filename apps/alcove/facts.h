@@ -10,7 +10,7 @@
 
 namespace alcove::cli {
 
-class Facts { // NOLINT(bugprone-exception-escape): moving a json value does not throw
+class Facts {
   public:
     /// A fact for programs only; the one named `kind` heads the lines.
     void add(const std::string& key, nlohmann::ordered_json value) { json_[key] = std::move(value); }

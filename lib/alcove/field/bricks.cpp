@@ -81,7 +81,8 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
                     index_[i] = static_cast<std::int32_t>(origins.size()) * BrickView::stride;
                     origins.push_back(origin);
                     if (origins.size() > std::numeric_limits<std::int32_t>::max() / BrickView::stride - 1)
-                        throw LimitError("the grid has more than 2.9 million leaves: use a coarser --voxel");
+                        throw LimitError("the grid takes more than 2.9 million bricks of 8³ voxels: use a "
+                                         "coarser --voxel");
                 } else {
                     index_[i] = accessor.getValue(origin) < 0.0f ? BrickView::stride : 0;
                 }

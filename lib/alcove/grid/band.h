@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// Distances from -1 to this many voxels behind a face keep their sign in a sheet: every cell that a face can
-/// pass through has its corners within √3.
+/// Further than this, in voxels, nothing behind a face of a sheet is negative: no corner of a cell that a face
+/// passes through is further from it than √3.
 inline constexpr float sheet_thickness = 1.75f;
 
 struct BandWidth {

@@ -38,10 +38,10 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
 /// V = 0 where the ray meets the surface within the radius. Source: "04 Ambient Occlusion", lecture notes.
-/// Rays start where the field answers a tenth of a voxel, or 1e-4 for exact fields. Cost: rays × 5–20
-/// map() calls a surfel.
+/// Rays start where the field answers a tenth of a voxel, or 1e-4 for exact fields. Cost: 6 + rays ×
+/// 5–20 map() calls a surfel.
 struct Traced {
-    float radius = 0.1f; ///< > 0; may be infinite
+    float radius = 0.1f; ///< > 0; may be infinite, at a cost of up to 1,024 map() calls for an open ray
     int rays = 64;       ///< a surfel, >= 1
     bool cosine_weighted = true;
     std::uint32_t seed = 0;
