@@ -11,7 +11,8 @@ struct SingleProbe {
     float height = 0.5f;
 
     template <alcove::Field F>
-    void operator()(const F& field, const alcove::SurfelBatch& surfels, float* ao) const {
+    void operator()(const F& field, const alcove::SurfelBatch& surfels, const alcove::Outputs& out) const {
+        float* ao = out[alcove::Channel::ao];
         alcove::probe_along_normal(field, surfels, height, ao);
         for (std::size_t i = 0; i < surfels.count; ++i)
             ao[i] = std::clamp(ao[i] / height, 0.0f, 1.0f);

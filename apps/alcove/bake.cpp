@@ -1,4 +1,5 @@
 #include "common.h"
+#include "method_options.h"
 #include "voxelized.h"
 
 #include "alcove/errors.h"
@@ -13,7 +14,7 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
+#include <sstream>
 
 namespace alcove::cli {
 namespace {
@@ -21,8 +22,8 @@ namespace {
 struct BakeOptions {
     CommonOptions common;
     GridRequest grid;
-    EstimatorOptions estimator;
-    std::string input, output, method = "traced", normals = "auto", color, color_encoding = "srgb",
+    MethodRequest method;
+    std::string input, output, attributes = "ao", normals = "auto", color, color_encoding = "srgb",
                                write_grid;
 };
 
@@ -46,9 +47,47 @@ ColorEncoding parse_encoding(const std::string& text) {
     throw UsageError(fmt::format("--color-encoding takes srgb or raw, not '{}'", text));
 }
 
+ChannelSet parse_attributes(const std::string& text) {
+    ChannelSet wanted;
+    std::string known;
+    for (const ChannelInfo& channel : channels)
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", channel.name);
+    std::istringstream names(text);
+    for (std::string name; std::getline(names, name, ',');) {
+        const auto* found = std::find_if(channels.begin(), channels.end(),
+                                         [&](const ChannelInfo& channel) { return channel.name == name; });
+        if (found == channels.end())
+            throw UsageError(fmt::format("there is no attribute '{}'; there are: {}", name, known));
+        wanted = wanted | found->channel;
+    }
+    if (wanted.empty())
+        throw UsageError("--attributes takes one or more of " + known);
+    return wanted;
+}
+
+std::string names_of(ChannelSet set) {
+    std::string names;
+    for (const ChannelInfo& channel : channels)
+        if (set.has(channel.channel))
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", channel.name);
+    return names;
+}
+
+/// The channels as attributes of the mesh, lengths in scene units.
+void set_attributes(Mesh& mesh, ChannelValues& values, double diagonal) {
+    for (float& thickness : values[Channel::thickness])
+        thickness = static_cast<float>(thickness * diagonal);
+    for (const ChannelInfo& channel : channels)
+        if (std::vector<float>& baked = values[channel.channel]; !baked.empty())
+            mesh.set_attribute(
+                {std::string(channel.name), static_cast<int>(channel.components), std::move(baked)});
+}
+
 /// Whether occlusion becomes colours and `quality`: as asked, else unless the input has its own; those of an
 /// earlier bake are not its own.
-bool wants_colors(const std::string& asked, const Mesh& mesh) {
+bool wants_colors(const std::string& asked, ChannelSet wanted, const Mesh& mesh) {
+    if (!wanted.has(Channel::ao))
+        return false;
     if (!asked.empty())
         return asked == "ao";
     if (mesh.source && mesh.source->has_comment(provenance))
@@ -58,10 +97,18 @@ bool wants_colors(const std::string& asked, const Mesh& mesh) {
 
 void run(const BakeOptions& options) {
     const ThreadLimit limit(options.common.threads);
-    const Method& method = parse_method(options.method);
+    const Method& method = parse_method(options.method.method);
+    const ChannelSet wanted = parse_attributes(options.attributes);
+    Settings settings = parse_settings(options.method, method, wanted);
     const NormalSource normals = parse_normals(options.normals);
     const ColorEncoding encoding = parse_encoding(options.color_encoding);
-    if (options.color == "none" && extension(options.output) == ".obj")
+    const bool to_obj = extension(options.output) == ".obj";
+    if (to_obj && !wanted.without(Channel::ao).empty())
+        throw UsageError(options.output + ": an .obj holds ao alone, as colours: write a .ply for " +
+                         names_of(wanted.without(Channel::ao)));
+    if (options.color == "ao" && !wanted.has(Channel::ao))
+        throw UsageError("--color ao needs ao among the --attributes");
+    if (options.color == "none" && to_obj)
         throw UsageError(options.output +
                          ": an .obj holds occlusion as colours alone: leave out --color none, or write a "
                          ".ply");
@@ -73,7 +120,11 @@ void run(const BakeOptions& options) {
         check_grid_output(options.write_grid);
 
     nlohmann::ordered_json seconds;
-    VoxelizedMesh input = read_and_voxelize(options.input, options.grid, options.common, seconds);
+    GridRequest grid = options.grid;
+    grid.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
+        return channel.inside && wanted.has(channel.channel);
+    });
+    VoxelizedMesh input = read_and_voxelize(options.input, grid, options.common, seconds);
     Mesh& mesh = input.mesh;
     Stopwatch watch;
     const LevelStack field(input.stack);
@@ -91,31 +142,31 @@ void run(const BakeOptions& options) {
             fmt::format("{} of {} vertices have no normal (no face uses them, or their faces "
                         "cancel) and got ao = 1",
                         grouped(static_cast<std::size_t>(bare)), grouped(surfels.size())));
-    EstimatorOptions estimator = options.estimator;
-    estimator.radius = input.radius;
-    std::vector<float> ao;
+    settings.radius = input.radius;
+    ChannelValues values;
     {
         ProgressMeter meter(options.common.progress_mode(), "baking");
-        ao = method.bake(surfels, field, estimator, std::ref(meter));
+        values = bake_channels(surfels, field, method, settings, wanted, std::ref(meter));
     }
     seconds["occlusion"] = watch.lap();
 
     const double radius = double(input.radius) * input.frame.diagonal;
     const double voxel = double(input.stack.levels.front().voxel) * input.frame.diagonal;
     WriteOptions writing;
-    writing.comments.push_back(fmt::format("alcove {}: ambient occlusion by {}, radius {:.6g}, voxel {:.6g}",
-                                           ALCOVE_VERSION, method.name, radius, voxel));
-    const bool colored = wants_colors(options.color, mesh);
-    if (!colored && extension(options.output) == ".obj")
+    writing.comments.push_back(fmt::format("alcove {}: {} by {}, radius {:.6g}, voxel {:.6g}", ALCOVE_VERSION,
+                                           names_of(wanted), method.name, radius, voxel));
+    const bool colored = wants_colors(options.color, wanted, mesh);
+    if (!colored && to_obj)
         throw UsageError(options.output +
                          ": an .obj holds occlusion as colours alone, and the input has its own: add "
                          "--color ao to replace them, or write a .ply");
     if (colored)
-        writing.colors = grey_colors(ao, encoding);
-    if (extension(options.output) != ".obj")
-        mesh.set_attribute({"ao", 1, ao});
-    if (colored && extension(options.output) == ".ply")
-        mesh.set_attribute({"quality", 1, std::move(ao)});
+        writing.colors = grey_colors(values[Channel::ao], encoding);
+    if (!to_obj) {
+        if (colored)
+            mesh.set_attribute({"quality", 1, values[Channel::ao]});
+        set_attributes(mesh, values, input.frame.diagonal);
+    }
     for (std::string& lost : write_mesh(mesh, options.output, writing))
         input.warnings.push_back(std::move(lost));
     seconds["write"] = watch.lap();
@@ -126,6 +177,7 @@ void run(const BakeOptions& options) {
                     {"output", options.output},
                     {"vertices", mesh.vertex_count()},
                     {"faces", mesh.face_count()},
+                    {"attributes", names_of(wanted)},
                     {"method", method.name},
                     {"radius", radius},
                     {"voxel", voxel},
@@ -137,8 +189,8 @@ void run(const BakeOptions& options) {
                     {"peak_rss_bytes", peak_rss_bytes()},
                     {"warnings", input.warnings}});
     else if (!options.common.quiet)
-        fmt::print("{}: ao of {} vertices by {}, radius {:.4g}, as a {} of {} level{} from voxel {:.4g}\n",
-                   options.output, grouped(mesh.vertex_count()), method.name, radius,
+        fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, as a {} of {} level{} from voxel {:.4g}\n",
+                   options.output, names_of(wanted), grouped(mesh.vertex_count()), method.name, radius,
                    name_of(input.stack.sign), input.stack.levels.size(),
                    input.stack.levels.size() == 1 ? "" : "s", voxel);
 }
@@ -146,22 +198,19 @@ void run(const BakeOptions& options) {
 }
 
 void add_bake(CLI::App& program) {
-    auto* verb = program.add_subcommand("bake", "Compute ambient occlusion at the vertices of a mesh");
+    auto* verb =
+        program.add_subcommand("bake", "Compute ambient occlusion and masks at the vertices of a mesh");
     auto options = std::make_shared<BakeOptions>();
     verb->add_option("input", options->input, "Mesh to bake (ply, obj, off, stl)")->required();
     verb->add_option("-o,--output", options->output, "Mesh to write (ply, obj)")->required();
     add_radius_option(*verb, options->grid,
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
-    verb->add_option("--method", options->method, "Estimator: " + method_names())
-        ->type_name("NAME")
+    add_method_options(*verb, options->method, "Estimator: ");
+    verb->add_option("--attributes", options->attributes,
+                     "What to bake, with commas between: ao, ao_short, ao_long (multiscale), convexity, "
+                     "bent_normal, thickness")
+        ->type_name("NAMES")
         ->capture_default_str();
-    verb->add_option("--samples", options->estimator.samples, "Probes a vertex (classic; default 5)")
-        ->check(CLI::Range(2, 1 << 20).description(""))
-        ->type_name("N");
-    verb->add_option("--rays", options->estimator.rays, "Rays a vertex (traced; default 64)")
-        ->check(CLI::Range(1, 1 << 20).description(""))
-        ->type_name("N");
-    verb->add_option("--seed", options->estimator.seed, "Seed of the directions")->type_name("N");
     verb->add_option("--normals", options->normals, "auto: the file's, else area-weighted; file; area")
         ->type_name("SOURCE")
         ->capture_default_str();
@@ -178,7 +227,8 @@ void add_bake(CLI::App& program) {
     verb->footer("Examples:\n"
                  "  alcove bake scan.ply -o scan_ao.ply\n"
                  "  alcove bake part.stl -o part_ao.ply --radius 5% --rays 256\n"
-                 "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n");
+                 "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n"
+                 "  alcove bake scan.ply -o masks.ply --attributes ao,convexity,bent_normal,thickness\n");
     verb->callback([options] { run(*options); });
 }
 

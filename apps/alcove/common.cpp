@@ -1,7 +1,5 @@
 #include "common.h"
 
-#include "alcove/errors.h"
-
 #include <fmt/format.h>
 
 #include <sys/resource.h>
@@ -39,21 +37,6 @@ void print_warnings(const std::vector<std::string>& warnings, const CommonOption
         return;
     for (const std::string& warning : warnings)
         std::fputs(fmt::format("alcove: warning: {}\n", warning).c_str(), stderr);
-}
-
-const Method& parse_method(const std::string& name) {
-    try {
-        return find_method(name);
-    } catch (const InputError& unknown) {
-        throw UsageError(unknown.what());
-    }
-}
-
-std::string method_names() {
-    std::string names;
-    for (const Method& method : catalog())
-        names += (names.empty() ? "" : ", ") + std::string(method.name);
-    return names;
 }
 
 std::string grouped(std::size_t number) {

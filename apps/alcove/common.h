@@ -3,8 +3,6 @@
 
 #include "progress.h"
 
-#include "alcove/occlusion/catalog.h"
-
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -35,12 +33,6 @@ void add_common_options(CLI::App& verb, CommonOptions& options);
 /// Prints warnings to stderr, a line each, unless quiet; where stderr takes nothing they are lost.
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
 
-/// The estimator of that name. \throw UsageError listing the known ones.
-const Method& parse_method(const std::string& name);
-
-/// The names of the catalog, one after the other.
-std::string method_names();
-
 /// `3412` as `3,412`.
 std::string grouped(std::size_t number);
 
@@ -66,5 +58,6 @@ void add_bake(CLI::App& program);
 void add_render(CLI::App& program);
 void add_voxelize(CLI::App& program);
 void add_info(CLI::App& program);
+void add_methods(CLI::App& program);
 
 }

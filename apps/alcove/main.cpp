@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
         alcove::cli::add_render(program);
         alcove::cli::add_voxelize(program);
         alcove::cli::add_info(program);
+        alcove::cli::add_methods(program);
         program.parse(argc, argv);
         if (std::fflush(stdout) != 0)
             return complain(failure, "stdout: cannot be written; is the disk full?");

@@ -1,5 +1,6 @@
 #include "common.h"
 #include "length.h"
+#include "method_options.h"
 #include "voxelized.h"
 
 #include "alcove/atomic_file.h"
@@ -25,7 +26,8 @@ constexpr double memory_limit = 4e9;
 struct Options {
     CommonOptions common;
     GridRequest grid;
-    std::string input, output, size = "1280x720", method = "traced", eye, look_at, up = "0,1,0";
+    MethodRequest method;
+    std::string input, output, size = "1280x720", eye, look_at, up = "0,1,0";
     double fov = CameraOptions{}.fov;
     std::vector<std::string> passes;
 };
@@ -155,8 +157,10 @@ void run(const Options& options) {
     const ImageSize size = parse_size(options.size);
     const CameraOptions wanted = camera_options(options);
     RenderOptions rendering;
-    if (options.method != "none")
-        rendering.method = &parse_method(options.method);
+    if (options.method.method != "none") {
+        rendering.method = &parse_method(options.method.method);
+        rendering.settings = parse_settings(options.method, *rendering.method, Channel::ao);
+    }
 
     const Scene scene =
         extension(options.input) == ".vdb" ? scene_of_grid(options) : scene_of_mesh(options, seconds);
@@ -164,7 +168,7 @@ void run(const Options& options) {
 
     const Camera camera = make_camera(wanted, scene.points, size);
     rendering.lighting = studio_lighting(camera, wanted.up);
-    rendering.estimator.radius = scene.radius;
+    rendering.settings.radius = scene.radius;
     Image image;
     {
         ProgressMeter drawing(options.common.progress_mode(), "rendering");
@@ -183,7 +187,7 @@ void run(const Options& options) {
         header.software = "alcove " ALCOVE_VERSION;
         header.comments = fmt::format("{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
                                       std::filesystem::path(options.input).filename().string(),
-                                      options.method, scene.radius * diagonal, scene.voxel);
+                                      options.method.method, scene.radius * diagonal, scene.voxel);
         write_exr(image, options.output, header);
     }
     seconds["write"] = watch.lap();
@@ -197,14 +201,14 @@ void run(const Options& options) {
     print_warnings(warnings, options.common);
     if (!options.common.json && !options.common.quiet)
         fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}, voxel {:.4g}\n", options.output,
-                   size.width, size.height, options.method, scene.radius * diagonal, scene.voxel);
+                   size.width, size.height, options.method.method, scene.radius * diagonal, scene.voxel);
     if (options.common.json)
         print_json({{"input", options.input},
                     {"output", options.output},
                     {"width", size.width},
                     {"height", size.height},
                     {"covered_pixels", covered},
-                    {"method", options.method},
+                    {"method", options.method.method},
                     {"radius", scene.radius * diagonal},
                     {"voxel", scene.voxel},
                     {"levels", scene.levels},
@@ -229,9 +233,7 @@ void add_render(CLI::App& program) {
     verb->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
     add_radius_option(*verb, options->grid,
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
-    verb->add_option("--method", options->method, "Estimator, or none: " + method_names())
-        ->type_name("NAME")
-        ->capture_default_str();
+    add_method_options(*verb, options->method, "Estimator, or none: ");
     verb->add_option("--pass", options->passes, "What a png shows: beauty (default), ao, normal or depth")
         ->option_text("NAME");
     verb->add_option("--eye", options->eye, "Where the camera is; default: where it sees all")

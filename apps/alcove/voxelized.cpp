@@ -57,6 +57,8 @@ VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& req
     VoxelizeOptions options;
     options.sign = parse_sign(request.sign);
     options.grid.outer_band = request.band;
+    if (request.inside)
+        options.grid.inner_band = request.band;
 
     Stopwatch watch;
     VoxelizedMesh result;

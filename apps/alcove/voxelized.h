@@ -12,6 +12,7 @@ namespace alcove::cli {
 struct GridRequest {
     std::string radius = "10%", voxel = "auto", sign = "auto";
     float band = GridOptions{}.outer_band;
+    bool inside = false; ///< the band is as wide behind the surface
 };
 
 void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& description);

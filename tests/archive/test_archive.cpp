@@ -9,7 +9,8 @@
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/mesh/write.h"
-#include "alcove/occlusion/catalog.h"
+#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/methods/classic.h"
 
 #include <gtest/gtest.h>
 
@@ -141,7 +142,7 @@ TEST_P(Archive, ComesBackWithOcclusionAndNothingElseChanged) {
     options.grid.voxel = 1.0f / 128;
     const GridStack stack = voxelize(mesh, triangles, options);
     const std::vector<Surfel> surfels = make_surfels(mesh, triangles, frame);
-    const std::vector<float> ao = find_method("classic").bake(surfels, LevelStack(stack), {}, {});
+    const std::vector<float> ao = bake(surfels, LevelStack(stack), Classic{});
     mesh.set_attribute({"ao", 1, ao});
     const std::vector<std::string> lost = write_mesh(mesh, baked_);
 

@@ -16,9 +16,9 @@ struct Height {
     float top = 1.0f;
 
     template <Field F>
-    void operator()(const F&, const SurfelBatch& surfels, float* ao) const {
+    void operator()(const F&, const SurfelBatch& surfels, const Outputs& out) const {
         for (std::size_t i = 0; i < surfels.count; ++i)
-            ao[i] = std::clamp(surfels.y[i] / top, 0.0f, 1.0f);
+            out[Channel::ao][i] = std::clamp(surfels.y[i] / top, 0.0f, 1.0f);
     }
 };
 
@@ -61,12 +61,20 @@ TEST(Catalog, EveryMethodSaysWhatItIsAndBakes) {
     const std::vector<Surfel> surfels(100, Surfel{{0.1f, 0, 0.2f}, {0, 1, 0}});
     for (const Method& method : catalog()) {
         EXPECT_TRUE(names.insert(method.name).second);
-        EXPECT_EQ(&find_method(method.name), &method);
         EXPECT_FALSE(method.summary.empty() || method.formula.empty() || method.source.empty() ||
-                     method.cost.empty());
-        for (const float ao : method.bake(surfels, AnyField(Plane{}), {}, {})) {
-            EXPECT_GE(ao, 0.0f);
-            EXPECT_LE(ao, 1.0f);
+                     method.cost.empty() || method.good.empty() || method.bad.empty());
+        if (method.gives.has(Channel::ao))
+            EXPECT_EQ(&find_method(method.name), &method);
+        else
+            EXPECT_THROW(find_method(method.name), InputError);
+        const ChannelValues values = method.bake(surfels, AnyField(Plane{}), {}, method.gives, {});
+        for (const ChannelInfo& channel : channels) {
+            ASSERT_EQ(values[channel.channel].size(),
+                      method.gives.has(channel.channel) ? surfels.size() * channel.components : 0);
+            for (const float value : values[channel.channel]) {
+                EXPECT_GE(value, channel.channel == Channel::bent_normal ? -1.0f : 0.0f);
+                EXPECT_LE(value, 1.0f);
+            }
         }
     }
 }

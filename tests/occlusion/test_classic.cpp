@@ -1,4 +1,4 @@
-#include "alcove/occlusion/along_normal.h"
+#include "alcove/occlusion/methods/classic.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"

@@ -4,7 +4,7 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/occlusion/bake.h"
-#include "alcove/occlusion/traced.h"
+#include "alcove/occlusion/methods/traced.h"
 #include "exact_distance.h"
 #include "real_mesh.h"
 #include "shapes.h"

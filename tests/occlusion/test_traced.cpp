@@ -1,7 +1,7 @@
 /// traced against closed forms on exact fields: cosine-weighted visibility is a configuration factor of a
 /// disc, a sphere cap or a half plane (J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration
 /// Factors", 1982).
-#include "alcove/occlusion/traced.h"
+#include "alcove/occlusion/methods/traced.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"

@@ -116,7 +116,7 @@ TEST(Renderer, OcclusionDarkensACornerAndOnlyAmbientLight) {
     const Camera camera = camera_at({0.7f, 0.6f, 0.2f}, {-0.1f, 0.05f, 0.0f}, {160, 120}, 20.0);
     const Lighting lighting = studio_lighting(camera, {0.0, 1.0, 0.0});
     RenderOptions options{.samples = 1, .method = &find_method("classic"), .lighting = lighting};
-    options.estimator.radius = 0.1f;
+    options.settings.radius = 0.1f;
     const Image image = render(subject, camera, options);
     const Image open = render(subject, camera, {.samples = 1, .lighting = lighting});
     float darkest = 1.0f, brightest = 0.0f;
@@ -224,7 +224,7 @@ TEST(Renderer, ThreadsDoNotMatter) {
     const Subject subject = subject_of(scene, {-0.4f, -0.3f, -0.4f}, {0.4f, 0.4f, 0.4f});
     const Camera camera = camera_at({0.5f, 0.6f, 1.0f}, {0.0f, 0.0f, 0.0f}, {160, 120});
     RenderOptions options{.method = &find_method("traced")};
-    options.estimator.radius = 0.2f;
+    options.settings.radius = 0.2f;
     const auto file_with = [&](unsigned threads, const char* name) {
         const ThreadLimit limit(threads);
         write_exr(render(subject, camera, options), folder / name, {});

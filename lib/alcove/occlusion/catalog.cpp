@@ -1,8 +1,17 @@
 #include "alcove/occlusion/catalog.h"
 
 #include "alcove/errors.h"
-#include "alcove/occlusion/along_normal.h"
-#include "alcove/occlusion/traced.h"
+#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/methods/decay.h"
+#include "alcove/occlusion/methods/exponential.h"
+#include "alcove/occlusion/methods/fibonacci.h"
+#include "alcove/occlusion/methods/hemisphere.h"
+#include "alcove/occlusion/methods/hemisphere_random.h"
+#include "alcove/occlusion/methods/jittered.h"
+#include "alcove/occlusion/methods/multiplicative.h"
+#include "alcove/occlusion/methods/multiscale.h"
+#include "alcove/occlusion/methods/thickness.h"
+#include "alcove/occlusion/methods/traced.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,19 +22,47 @@ namespace alcove {
 namespace {
 
 template <class E>
+std::vector<ParameterInfo> parameters_of() {
+    const E standard;
+    std::vector<ParameterInfo> infos;
+    for (const auto& p : E::parameters())
+        infos.push_back({p.name, p.get(standard), p.min, p.max, p.integer, p.flag, p.unit, p.summary});
+    return infos;
+}
+
+template <class E>
+E with_settings(const Settings& settings) {
+    E estimator;
+    // In unit space nothing is further than the diagonal.
+    estimator.radius = std::min(settings.radius, 1.0f);
+    for (const auto& [name, value] : settings.parameters)
+        for (const auto& p : E::parameters())
+            if (p.name == name)
+                p.set(estimator, value);
+    return estimator;
+}
+
+template <class E>
 constexpr Method method() {
     return {E::name,
             E::summary,
             E::formula,
             E::source,
             E::cost,
-            [](std::span<const Surfel> surfels, const AnyField& field, const EstimatorOptions& options,
-               const Progress& progress) { return bake(surfels, field, E::from(options), progress); }};
+            E::good,
+            E::bad,
+            channels_of<E>(),
+            parameters_of<E>,
+            [](std::span<const Surfel> surfels, const AnyField& field, const Settings& settings,
+               ChannelSet wanted, const Progress& progress) {
+                return bake_channels(surfels, field, with_settings<E>(settings), wanted, progress);
+            }};
 }
 
 constexpr std::array methods{
-    method<Classic>(),
-    method<Traced>(),
+    method<Classic>(),    method<Exponential>(), method<Decay>(),      method<Multiplicative>(),
+    method<Multiscale>(), method<Jittered>(),    method<Hemisphere>(), method<HemisphereRandom>(),
+    method<Fibonacci>(),  method<Traced>(),      method<Thickness>(),
 };
 
 }
@@ -36,12 +73,74 @@ std::span<const Method> catalog() {
 
 const Method& find_method(std::string_view name) {
     std::vector<std::string_view> names;
-    for (const Method& method : methods) {
-        if (method.name == name)
-            return method;
-        names.push_back(method.name);
-    }
+    for (const Method& method : methods)
+        if (method.gives.has(Channel::ao)) {
+            if (method.name == name)
+                return method;
+            names.push_back(method.name);
+        }
     throw InputError(fmt::format("there is no method '{}'; there are: {}", name, fmt::join(names, ", ")));
+}
+
+std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted) {
+    std::vector<const Method*> needed{&chosen};
+    if ((chosen.gives & wanted).empty())
+        needed.clear();
+    ChannelSet left = wanted.without(chosen.gives);
+    // Short and long are halves of one method's own ao.
+    if (left.has(Channel::ao_short) || left.has(Channel::ao_long))
+        throw InputError(
+            fmt::format("{} has no ao_short and ao_long: use --method {}", chosen.name, Multiscale::name));
+    for (const Method& method : methods)
+        if (!(method.gives & left).empty()) {
+            needed.push_back(&method);
+            left = left.without(method.gives);
+        }
+    return needed;
+}
+
+void check_settings(std::span<const Method* const> needed, const Settings& settings) {
+    for (const auto& [name, value] : settings.parameters) {
+        bool known = false;
+        std::vector<std::string> names;
+        std::vector<std::string_view> methods;
+        for (const Method* method : needed) {
+            methods.push_back(method->name);
+            for (const ParameterInfo& p : method->parameters()) {
+                names.emplace_back(p.name);
+                if (p.name != name)
+                    continue;
+                known = true;
+                if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
+                    throw InputError(fmt::format("{} of {} takes {} from {:g} to {:g}, not {:g}", name,
+                                                 method->name, p.integer ? "a whole number" : "a number",
+                                                 p.min, p.max, value));
+            }
+        }
+        if (!known)
+            throw InputError(fmt::format("{} has no parameter '{}'; there are: {}",
+                                         fmt::join(methods, " and "), name,
+                                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    }
+}
+
+ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field, const Method& chosen,
+                            const Settings& settings, ChannelSet wanted, const Progress& progress) {
+    const std::vector<const Method*> needed = methods_for(chosen, wanted);
+    check_settings(needed, settings);
+    ChannelValues baked;
+    ChannelSet left = wanted;
+    for (std::size_t i = 0; i < needed.size(); ++i) {
+        const auto done = [&](double part) {
+            progress((static_cast<double>(i) + part) / static_cast<double>(needed.size()));
+        };
+        ChannelValues part = needed[i]->bake(surfels, field, settings, left, progress ? done : Progress{});
+        for (const ChannelInfo& channel : channels)
+            if (!part[channel.channel].empty())
+                baked[channel.channel] = std::move(part[channel.channel]);
+        left = left.without(needed[i]->gives);
+    }
+    return baked;
 }
 
 }

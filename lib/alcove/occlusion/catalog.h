@@ -6,9 +6,26 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace alcove {
+
+/// A parameter of a method, as the Parameter of its estimator describes it.
+struct ParameterInfo {
+    std::string_view name;
+    double standard; ///< its default
+    double min, max; ///< inclusive
+    bool integer, flag;
+    std::string_view unit;
+    std::string_view summary;
+};
+
+/// What a user sets: the radius of every estimator, and parameters by their names.
+struct Settings {
+    float radius = 0.1f; ///< units of the field; may be infinite
+    std::vector<std::pair<std::string, double>> parameters{};
+};
 
 /// An estimator behind function pointers, as its struct describes itself.
 struct Method {
@@ -17,14 +34,31 @@ struct Method {
     std::string_view formula;
     std::string_view source;
     std::string_view cost; ///< in map() calls a surfel
-    std::vector<float> (*bake)(std::span<const Surfel>, const AnyField&, const EstimatorOptions&,
-                               const Progress&);
+    std::string_view good, bad;
+    ChannelSet gives;
+    std::vector<ParameterInfo> (*parameters)();
+    /// Settings of parameters the method has not are passed over.
+    ChannelValues (*bake)(std::span<const Surfel>, const AnyField&, const Settings&, ChannelSet wanted,
+                          const Progress&);
 };
 
 /// All methods, in the order of the documentation.
 std::span<const Method> catalog();
 
-/// \throw InputError for an unknown name, listing the known ones.
+/// The method of that name that gives ao. \throw InputError for an unknown name, listing the known ones.
 const Method& find_method(std::string_view name);
+
+/// The methods that give the wanted channels, each asked once: the chosen one for all that it gives, for the
+/// rest the first of the catalog. \throw InputError for a channel that only other methods than the chosen one
+/// can give along with its ao, naming them.
+std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
+
+/// \throw InputError if none of the methods has a parameter that is set, or its value is out of range, naming
+/// what there is.
+void check_settings(std::span<const Method* const> methods, const Settings& settings);
+
+/// All wanted channels. \throw what methods_for() and check_settings() throw.
+ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field, const Method& chosen,
+                            const Settings& settings, ChannelSet wanted, const Progress& progress = {});
 
 }

@@ -3,18 +3,21 @@
 ///     struct Mine {
 ///         float radius = 0.1f;
 ///         template <Field F>
-///         void operator()(const F& field, const SurfelBatch& surfels, float* ao) const;
+///         void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const;
 ///     };
 ///
-/// To be chosen by name at run time it also says what it is and takes its parameters from EstimatorOptions,
-/// as Classic does, and has its line in catalog.cpp; `bake()` asks for neither.
+/// It writes a value a surfel to `out[Channel::ao]`, in [0, 1], and to the other channels it `gives` where
+/// they are not null; every surfel of a batch has a normal. Lengths are in the unit of the field. `const` and
+/// without state, so that any number of threads share one estimator. To be chosen by name it also says what it
+/// is, as Classic does, and has its line in catalog.cpp.
 ///
-/// It writes one visibility a surfel of the batch, in [0, 1]; every surfel of a batch has a normal. Lengths
-/// are in the units of the field. `const` and without state, so that any number of threads share one
-/// estimator.
+/// *Document units*: the constants of a formula stand for the radius R₀ of its document. With R the wanted
+/// radius, heights are multiplied by R/R₀ and distances by R₀/R, so that any uniform scale of scene and radius
+/// gives the same values, and R = R₀ is the document itself.
 #pragma once
 
 #include "alcove/field/field.h"
+#include "alcove/occlusion/channels.h"
 
 #include <algorithm>
 #include <array>
@@ -42,30 +45,46 @@ struct SurfelBatch {
     Vec3 normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
 };
 
-/// What a user may set; an estimator takes what concerns it.
-struct EstimatorOptions {
-    float radius = 0.1f; ///< units of the field; may be infinite
-    int samples = 0;     ///< probes a surfel; 0: the method's own
-    int rays = 0;        ///< rays a surfel; 0: the method's own
-    std::uint32_t seed = 0;
-};
-
 template <class E, class F>
 concept Estimator = Field<F> &&
-    requires(const E& estimator, const F& field, const SurfelBatch& surfels, float* ao) {
-    estimator(field, surfels, ao);
+    requires(const E& estimator, const F& field, const SurfelBatch& surfels, const Outputs& out) {
+    estimator(field, surfels, out);
 };
 
-/// distances[i] = map(position + height · normal) for the whole batch. Cost: one map() a surfel.
+/// The channels an estimator gives: those it names, else ao alone.
+template <class E>
+constexpr ChannelSet channels_of() {
+    if constexpr (requires { E::gives; })
+        return E::gives;
+    else
+        return Channel::ao;
+}
+
+/// A point a surfel.
+struct ProbeBatch {
+    SurfelBatch::Values x, y, z;
+
+    void set(std::size_t i, const Vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
+};
+
+/// distances[i] = map(probes[i]) for the first `count`; none is further than `reach` from the surface. Cost:
+/// `count` map() calls.
+template <Field F>
+void map_probes(const F& field, const ProbeBatch& probes, std::size_t count, float reach, float* distances) {
+    map_batch(field, Points{probes.x.data(), probes.y.data(), probes.z.data(), count}, reach, distances);
+}
+
+/// distances[i] = map(position + height · normal) for the whole batch; a negative height is behind the
+/// surface. Cost: one map() a surfel.
 template <Field F>
 void probe_along_normal(const F& field, const SurfelBatch& surfels, float height, float* distances) {
-    SurfelBatch::Values x, y, z;
+    ProbeBatch probes;
     for (std::size_t i = 0; i < surfels.count; ++i) {
-        x[i] = surfels.x[i] + height * surfels.nx[i];
-        y[i] = surfels.y[i] + height * surfels.ny[i];
-        z[i] = surfels.z[i] + height * surfels.nz[i];
+        probes.x[i] = surfels.x[i] + height * surfels.nx[i];
+        probes.y[i] = surfels.y[i] + height * surfels.ny[i];
+        probes.z[i] = surfels.z[i] + height * surfels.nz[i];
     }
-    map_batch(field, Points{x.data(), y.data(), z.data(), surfels.count}, std::fabs(height), distances);
+    map_probes(field, probes, surfels.count, std::fabs(height), distances);
 }
 
 }

@@ -70,9 +70,10 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
                 progress((static_cast<double>(first) + part * static_cast<double>(pixels)) /
                          static_cast<double>(image.pixels()));
         };
-        const std::vector<float> ao =
-            options.method ? options.method->bake(hits.surfels, subject.field, options.estimator, done)
-                           : std::vector<float>(hits.surfels.size(), 1.0f);
+        std::vector<float> ao(hits.surfels.size(), 1.0f);
+        if (options.method)
+            ao = std::move(bake_channels(hits.surfels, subject.field, *options.method, options.settings,
+                                         Channel::ao, done)[Channel::ao]);
         resolve(hits, ao, options, first, pixels, image);
         done(1.0);
     }

@@ -17,7 +17,7 @@ struct RenderOptions {
     int samples = 4;
     /// Estimator of occlusion; null: ao is 1 everywhere.
     const Method* method = nullptr;
-    EstimatorOptions estimator{};
+    Settings settings{};
     Lighting lighting{};
 };
 

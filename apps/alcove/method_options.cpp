@@ -1,0 +1,77 @@
+#include "method_options.h"
+
+#include "alcove/errors.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace alcove::cli {
+namespace {
+
+double parse_value(const std::string& setting, const std::string& text) {
+    if (text == "true" || text == "false")
+        return text == "true" ? 1.0 : 0.0;
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+        throw UsageError(
+            fmt::format("--set takes name=value with a number, true or false, not '{}'", setting));
+    return value;
+}
+
+}
+
+void add_method_options(CLI::App& verb, MethodRequest& request, const std::string& method_help) {
+    verb.add_option("--method", request.method, method_help + method_names())
+        ->type_name("NAME")
+        ->capture_default_str();
+    verb.add_option("--samples", request.samples, "Probes a point, for methods that probe")->type_name("N");
+    verb.add_option("--rays", request.rays, "Rays a point, for methods that trace (traced: 64)")
+        ->type_name("N");
+    verb.add_option("--seed", request.seed, "Seed of the directions")->type_name("N");
+    verb.add_option("--set", request.set, "A parameter of the method, as `alcove methods` lists them")
+        ->type_name("NAME=VALUE");
+}
+
+const Method& parse_method(const std::string& name) {
+    try {
+        return find_method(name);
+    } catch (const InputError& unknown) {
+        throw UsageError(unknown.what());
+    }
+}
+
+Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted) {
+    Settings settings;
+    const auto set = [&](const char* name, const auto& value) {
+        if (value)
+            settings.parameters.emplace_back(name, static_cast<double>(*value));
+    };
+    set("samples", request.samples);
+    set("rays", request.rays);
+    set("seed", request.seed);
+    for (const std::string& setting : request.set) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos)
+            throw UsageError(fmt::format("--set takes name=value, not '{}'", setting));
+        settings.parameters.emplace_back(setting.substr(0, equals),
+                                         parse_value(setting, setting.substr(equals + 1)));
+    }
+    try {
+        check_settings(methods_for(method, wanted), settings);
+    } catch (const InputError& wrong) {
+        throw UsageError(wrong.what());
+    }
+    return settings;
+}
+
+std::string method_names() {
+    std::string names;
+    for (const Method& method : catalog())
+        if (method.gives.has(Channel::ao))
+            names += (names.empty() ? "" : ", ") + std::string(method.name);
+    return names;
+}
+
+}
