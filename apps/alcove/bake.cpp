@@ -57,7 +57,7 @@ ChannelSet parse_attributes(const std::string& text) {
         const auto* found = std::find_if(channels.begin(), channels.end(),
                                          [&](const ChannelInfo& channel) { return channel.name == name; });
         if (found == channels.end())
-            throw UsageError(fmt::format("there is no attribute '{}'; there are: {}", name, known));
+            throw UsageError(fmt::format("--attributes: there is no '{}'; there are: {}", name, known));
         wanted = wanted | found->channel;
     }
     if (wanted.empty())

@@ -9,6 +9,14 @@
 namespace alcove::cli {
 namespace {
 
+std::vector<const Method*> methods_of(const Method& method, ChannelSet wanted) {
+    try {
+        return methods_for(method, wanted);
+    } catch (const InputError& impossible) {
+        throw UsageError(impossible.what());
+    }
+}
+
 double parse_value(const std::string& setting, const std::string& text) {
     if (text == "true" || text == "false")
         return text == "true" ? 1.0 : 0.0;
@@ -43,25 +51,28 @@ const Method& parse_method(const std::string& name) {
 }
 
 Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted) {
+    const std::vector<const Method*> methods = methods_of(method, wanted);
     Settings settings;
-    const auto set = [&](const char* name, const auto& value) {
-        if (value)
-            settings.parameters.emplace_back(name, static_cast<double>(*value));
+    const auto set = [&](const std::string& option, std::string name, double value) {
+        const Settings one{.parameters = {{std::move(name), value}}};
+        try {
+            check_settings(methods, one);
+        } catch (const InputError& wrong) {
+            throw UsageError(option + ": " + wrong.what());
+        }
+        settings.parameters.push_back(one.parameters.front());
     };
-    set("samples", request.samples);
-    set("rays", request.rays);
-    set("seed", request.seed);
+    if (request.samples)
+        set("--samples", "samples", *request.samples);
+    if (request.rays)
+        set("--rays", "rays", *request.rays);
+    if (request.seed)
+        set("--seed", "seed", *request.seed);
     for (const std::string& setting : request.set) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos)
             throw UsageError(fmt::format("--set takes name=value, not '{}'", setting));
-        settings.parameters.emplace_back(setting.substr(0, equals),
-                                         parse_value(setting, setting.substr(equals + 1)));
-    }
-    try {
-        check_settings(methods_for(method, wanted), settings);
-    } catch (const InputError& wrong) {
-        throw UsageError(wrong.what());
+        set("--set " + setting, setting.substr(0, equals), parse_value(setting, setting.substr(equals + 1)));
     }
     return settings;
 }

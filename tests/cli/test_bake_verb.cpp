@@ -55,11 +55,12 @@ TEST_F(BakeVerb, IsSilentOnStderrWhenAllIsWellAndEverywhereWhenQuiet) {
 }
 
 TEST_F(BakeVerb, GivesTheSameBytesWithAnyNumberOfThreads) {
-    for (const char* method : {"classic", "traced"}) {
+    for (const char* method : {"classic", "hemisphere", "traced"}) {
         std::set<std::string> results;
         for (const char* threads : {"1", "2", "3"}) {
-            const Outcome outcome = run({"bake", real_mesh("elephant.off"), "-o", "a.ply", "--method", method,
-                                         "--rays", "16", "--threads", threads});
+            const Outcome outcome =
+                run({"bake", real_mesh("elephant.off"), "-o", "a.ply", "--method", method, "--attributes",
+                     "ao,convexity,bent_normal,thickness", "--threads", threads});
             ASSERT_EQ(outcome.code, done) << outcome.err;
             results.insert(bytes_of("a.ply"));
         }

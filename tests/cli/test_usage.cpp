@@ -103,13 +103,15 @@ TEST_F(Program, RefusesBadNumbersAndWordsBeforeItReadsAnything) {
         expect_refusal({"bake", "none.ply", "-o", "b.ply", "--threads", number}, usage,
                        {"--threads", "whole number", fmt::format("'{}'", number)});
     const std::vector<std::vector<std::string>> wrong{
-        {"--samples", "-3"},   {"--samples", "x"}, {"--rays", "0"},
-        {"--rays", "0.5"},     {"--seed", "-1"},   {"--sign", "both"},
-        {"--normals", "none"}, {"--color", "red"}, {"--color-encoding", "linear"},
+        {"--samples", "x"},    {"--rays", "0"},       {"--rays", "99999999"}, {"--attributes", "a0"},
+        {"--set", "rays"},     {"--set", "rays=x"},   {"--rays", "0.5"},      {"--seed", "-1"},
+        {"--sign", "both"},    {"--normals", "none"}, {"--color", "red"},     {"--color-encoding", "linear"},
         {"--progress", "loud"}};
     for (const auto& option : wrong)
         expect_refusal({"bake", "none.ply", "-o", "b.ply", option[0], option[1]}, usage,
                        {option[0], option[1]});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--method", "classic", "--samples", "-3"}, usage,
+                   {"--samples", "-3"});
     expect_refusal({"voxelize", "none.ply", "-o", "b.vdb", "--band", "1"}, usage, {"--band", "1"});
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--method", "clasic"}, usage,
                    {"no method 'clasic'", "classic", "traced"});
