@@ -44,6 +44,7 @@
 #include "alcove/occlusion/directions.h"
 #include "alcove/occlusion/document_hash.h"
 #include "alcove/occlusion/estimator.h"
+#include "alcove/occlusion/exact.h"
 #include "alcove/occlusion/hemisphere_frame.h"
 #include "alcove/occlusion/parameter.h"
 

@@ -1,4 +1,4 @@
-/// Surfels × field × estimator -> values.
+/// Surfels × field (or ray surface) × estimator -> values.
 #pragma once
 
 #include "alcove/occlusion/estimator.h"
@@ -25,7 +25,7 @@ using ChannelValues = PerChannel<std::vector<float>>;
 /// Every wanted channel that the estimator gives, in one pass over the surfels; what is missing of a surfel
 /// without a normal is in `channels`. The values do not depend on the number of threads nor on the order of the
 /// surfels. Cost: that of the estimator, a surfel.
-template <Field F, Estimator<F> E>
+template <class F, Estimator<F> E>
 ChannelValues bake_channels(std::span<const Surfel> surfels, const F& field, const E& estimator,
                             ChannelSet wanted, const Progress& progress = {}) {
     wanted = wanted & channels_of<E>();
@@ -65,7 +65,7 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const F& field, con
 }
 
 /// The ao alone: a value a surfel, 1 where there is no normal.
-template <Field F, Estimator<F> E>
+template <class F, Estimator<F> E>
 std::vector<float> bake(std::span<const Surfel> surfels, const F& field, const E& estimator,
                         const Progress& progress = {}) {
     return std::move(bake_channels(surfels, field, estimator, Channel::ao, progress)[Channel::ao]);

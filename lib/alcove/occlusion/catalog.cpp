@@ -112,9 +112,9 @@ void check_settings(std::span<const Method* const> needed, const Settings& setti
                     continue;
                 known = true;
                 if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
-                    throw InputError(fmt::format("{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name,
-                                                 method->name, p.integer ? "a whole number" : "a number",
-                                                 p.min, p.max, value));
+                    throw InputError(fmt::format(
+                        "{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name, method->name,
+                        p.integer ? "a whole number" : "a number", p.min, p.max, value));
             }
         }
         if (!known)

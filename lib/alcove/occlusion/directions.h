@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 namespace alcove {
 
@@ -73,5 +74,41 @@ inline Vec2 fibonacci_point(int i, int n, float shift_u, float shift_v) {
     return {std::min(static_cast<float>(u - std::floor(u)), below_one),
             std::min(static_cast<float>(v - std::floor(v)), below_one)};
 }
+
+/// The lattice of `fibonacci_point` sent through `cosine_hemisphere`, with its angles evaluated once for any
+/// number of shifts: the shift in v is a rotation.
+class CosineLattice {
+  public:
+    explicit CosineLattice(int count) : points_(static_cast<std::size_t>(count)) {
+        for (int i = 0; i < count; ++i) {
+            const Vec2 uv = fibonacci_point(i, count, 0.0f, 0.0f);
+            const float phi = 2.0f * std::numbers::pi_v<float> * uv.y;
+            points_[static_cast<std::size_t>(i)] = {uv.x, std::cos(phi), std::sin(phi)};
+        }
+    }
+
+    /// Where on the torus one surfel's lattice lies.
+    struct Shift {
+        float u, cosine, sine;
+
+        explicit Shift(std::uint32_t random) : u(unit_interval(random)) {
+            const float phi = 2.0f * std::numbers::pi_v<float> * unit_interval(hash(random));
+            cosine = std::cos(phi), sine = std::sin(phi);
+        }
+    };
+
+    Vec3 direction(int i, const Shift& shift) const {
+        const Point& point = points_[static_cast<std::size_t>(i)];
+        const float sum = point.u + shift.u, u = sum < 1.0f ? sum : sum - 1.0f, r = std::sqrt(u);
+        return {r * (point.cosine * shift.cosine - point.sine * shift.sine),
+                r * (point.cosine * shift.sine + point.sine * shift.cosine), std::sqrt(1.0f - u)};
+    }
+
+  private:
+    struct Point {
+        float u, cosine, sine;
+    };
+    std::vector<Point> points_;
+};
 
 }

@@ -45,9 +45,10 @@ struct SurfelBatch {
     Vec3 normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
 };
 
+/// `F` is a Field, or a RaySurface for those that shoot rays at the mesh.
 template <class E, class F>
-concept Estimator = Field<F> &&
-    requires(const E& estimator, const F& field, const SurfelBatch& surfels, const Outputs& out) {
+concept Estimator = requires(const E& estimator, const F& field, const SurfelBatch& surfels,
+                             const Outputs& out) {
     estimator(field, surfels, out);
 };
 

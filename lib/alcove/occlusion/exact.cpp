@@ -1,0 +1,117 @@
+#include "alcove/occlusion/exact.h"
+
+#include "alcove/errors.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace alcove {
+
+struct RaySurface::Scene {
+    RTCDevice device = rtcNewDevice(nullptr);
+    RTCScene scene = rtcNewScene(device);
+
+    Scene() = default;
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+    ~Scene() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+    void check() const {
+        if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+            throw LimitError(fmt::format("no room for the rays' hierarchy over the triangles (error {}); "
+                                         "take a method without rays, or fewer triangles",
+                                         static_cast<int>(error)));
+    }
+};
+
+RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    for (const Triangle& triangle : triangles)
+        for (const std::uint32_t corner : triangle)
+            if (corner >= positions.size())
+                throw InputError(fmt::format("a triangle names position {} of {}", corner, positions.size()));
+    const auto scene = std::make_shared<Scene>();
+    const auto buffer = [&](RTCGeometry geometry, RTCBufferType type, RTCFormat format, const auto& items) {
+        // Its own, not shared: Embree reads past the last vertex.
+        void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size());
+        scene->check();
+        std::memcpy(to, items.data(), items.size_bytes());
+    };
+    if (!triangles.empty()) {
+        RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcAttachGeometry(scene->scene, geometry);
+        rtcReleaseGeometry(geometry);
+        buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions);
+        buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, triangles);
+        rtcCommitGeometry(geometry);
+    }
+    rtcCommitScene(scene->scene);
+    scene->check();
+    scene_ = scene;
+}
+
+void RaySurface::find_occluded(RayBatch& rays, float far) const {
+    std::array<RTCRay, RayBatch::capacity> stream;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        RTCRay& ray = stream[i];
+        ray.org_x = rays.x[i], ray.org_y = rays.y[i], ray.org_z = rays.z[i];
+        ray.dir_x = rays.dx[i], ray.dir_y = rays.dy[i], ray.dir_z = rays.dz[i];
+        ray.tnear = rays.travelled[i];
+        ray.tfar = far;
+        ray.time = 0.0f;
+        ray.mask = ~0u;
+        ray.id = static_cast<unsigned>(i);
+        ray.flags = 0;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    // Measured: a stream of rays that start together is a fifth faster than packets of 16 filled here, sorted
+    // by octant or not. Embree's robust mode takes a third longer and changes one ray of a million.
+    rtcOccluded1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count), sizeof(RTCRay));
+    for (std::size_t i = 0; i < rays.count; ++i)
+        rays.hit[i] = stream[i].tfar < 0.0f;
+}
+
+void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, const Outputs& out) const {
+    constexpr float offset = 1e-4f; // of the diagonal, as the reference is defined
+    const CosineLattice lattice(rays);
+    std::array<int, SurfelBatch::capacity> open{};
+    std::array<Vec3, SurfelBatch::capacity> mean{};
+    RayBatch batch;
+    std::array<std::uint8_t, RayBatch::capacity> owner;
+    const auto flush = [&] {
+        surface.find_occluded(batch, radius);
+        for (std::size_t r = 0; r < batch.count; ++r)
+            if (!batch.hit[r]) {
+                ++open[owner[r]];
+                mean[owner[r]] += Vec3(batch.dx[r], batch.dy[r], batch.dz[r]);
+            }
+        batch.count = 0;
+    };
+    for (std::size_t i = 0; i < surfels.count; ++i) {
+        const Basis basis(surfels.normal(i));
+        const Vec3 origin = surfels.position(i) + offset * basis.normal;
+        const CosineLattice::Shift shift(hash(surfels.position(i), seed));
+        for (int r = 0; r < rays; ++r) {
+            owner[batch.count] = static_cast<std::uint8_t>(i);
+            batch.push_back({origin, basis.to_world(lattice.direction(r, shift))}, 0.0f);
+            if (batch.count == RayBatch::capacity)
+                flush();
+        }
+    }
+    flush();
+    for (std::size_t i = 0; i < surfels.count; ++i)
+        out[Channel::ao][i] = static_cast<float>(open[i]) / static_cast<float>(rays);
+    if (float* bent = out[Channel::bent_normal])
+        for (std::size_t i = 0; i < surfels.count; ++i) {
+            const float length = glm::length(mean[i]);
+            const Vec3 direction = length > 0.0f ? mean[i] / length : Vec3(0.0f);
+            bent[3 * i] = direction.x, bent[3 * i + 1] = direction.y, bent[3 * i + 2] = direction.z;
+        }
+}
+
+}
