@@ -146,7 +146,7 @@ void run(const BakeOptions& options) {
     ChannelValues values;
     {
         ProgressMeter meter(options.common.progress_mode(), "baking");
-        values = bake_channels(surfels, field, method, settings, wanted, std::ref(meter));
+        values = bake_channels(surfels, AnyField(field), method, settings, wanted, std::ref(meter));
     }
     seconds["occlusion"] = watch.lap();
 

@@ -46,6 +46,7 @@
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/exact.h"
 #include "alcove/occlusion/hemisphere_frame.h"
+#include "alcove/occlusion/occluders.h"
 #include "alcove/occlusion/parameter.h"
 
 #include "alcove/occlusion/methods/classic.h"
@@ -62,6 +63,7 @@
 
 #include "alcove/render/camera.h"
 #include "alcove/render/image.h"
+#include "alcove/render/painted.h"
 #include "alcove/render/renderer.h"
 #include "alcove/render/shading.h"
 #include "alcove/render/subject.h"

@@ -59,6 +59,8 @@ TEST(Bake, SpatialOrderIsAPermutationOfTheSurfelsWithANormal) {
 TEST(Catalog, EveryMethodSaysWhatItIsAndBakes) {
     std::set<std::string_view> names;
     const std::vector<Surfel> surfels(100, Surfel{{0.1f, 0, 0.2f}, {0, 1, 0}});
+    const std::vector<Vec3> corners{{-1, 0, -1}, {1, 0, -1}, {0, 0, 2}};
+    const Occluders plane(Plane{}, RaySurface(corners, std::vector<Triangle>{{0, 1, 2}}));
     for (const Method& method : catalog()) {
         EXPECT_TRUE(names.insert(method.name).second);
         EXPECT_FALSE(method.summary.empty() || method.formula.empty() || method.source.empty() ||
@@ -67,7 +69,7 @@ TEST(Catalog, EveryMethodSaysWhatItIsAndBakes) {
             EXPECT_EQ(&find_method(method.name), &method);
         else
             EXPECT_THROW(find_method(method.name), InputError);
-        const ChannelValues values = method.bake(surfels, AnyField(Plane{}), {}, method.gives, {});
+        const ChannelValues values = method.bake(surfels, plane, {}, method.gives, {});
         for (const ChannelInfo& channel : channels) {
             ASSERT_EQ(values[channel.channel].size(),
                       method.gives.has(channel.channel) ? surfels.size() * channel.components : 0);

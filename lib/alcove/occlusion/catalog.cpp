@@ -43,7 +43,16 @@ E with_settings(const Settings& settings) {
 }
 
 template <class E>
+constexpr float document_radius_of() {
+    if constexpr (requires { E::document_radius; })
+        return E::document_radius;
+    else
+        return 0.0f;
+}
+
+template <class E>
 constexpr Method method() {
+    constexpr bool on_mesh = Estimator<E, RaySurface>;
     return {E::name,
             E::summary,
             E::formula,
@@ -52,17 +61,24 @@ constexpr Method method() {
             E::good,
             E::bad,
             channels_of<E>(),
+            on_mesh,
+            document_radius_of<E>(),
             parameters_of<E>,
-            [](std::span<const Surfel> surfels, const AnyField& field, const Settings& settings,
+            [](std::span<const Surfel> surfels, const Occluders& occluders, const Settings& settings,
                ChannelSet wanted, const Progress& progress) {
-                return bake_channels(surfels, field, with_settings<E>(settings), wanted, progress);
+                if constexpr (on_mesh)
+                    return bake_channels(surfels, occluders.rays(), with_settings<E>(settings), wanted,
+                                         progress);
+                else
+                    return bake_channels(surfels, occluders.field(), with_settings<E>(settings), wanted,
+                                         progress);
             }};
 }
 
 constexpr std::array methods{
     method<Classic>(),    method<Exponential>(), method<Decay>(),      method<Multiplicative>(),
     method<Multiscale>(), method<Jittered>(),    method<Hemisphere>(), method<HemisphereRandom>(),
-    method<Fibonacci>(),  method<Traced>(),      method<Thickness>(),
+    method<Fibonacci>(),  method<Traced>(),      method<Exact>(),      method<Thickness>(),
 };
 
 }
@@ -124,7 +140,7 @@ void check_settings(std::span<const Method* const> needed, const Settings& setti
     }
 }
 
-ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field, const Method& chosen,
+ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
                             const Settings& settings, ChannelSet wanted, const Progress& progress) {
     const std::vector<const Method*> needed = methods_for(chosen, wanted);
     check_settings(needed, settings);
@@ -134,7 +150,8 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& fie
         const auto done = [&](double part) {
             progress((static_cast<double>(i) + part) / static_cast<double>(needed.size()));
         };
-        ChannelValues part = needed[i]->bake(surfels, field, settings, left, progress ? done : Progress{});
+        ChannelValues part =
+            needed[i]->bake(surfels, occluders, settings, left, progress ? done : Progress{});
         for (const ChannelInfo& channel : channels)
             if (!part[channel.channel].empty())
                 baked[channel.channel] = std::move(part[channel.channel]);

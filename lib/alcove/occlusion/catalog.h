@@ -1,8 +1,8 @@
 /// Every estimator by its name: what is chosen at run time, once a bake.
 #pragma once
 
-#include "alcove/field/any_field.h"
 #include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/occluders.h"
 
 #include <string>
 #include <string_view>
@@ -36,9 +36,11 @@ struct Method {
     std::string_view cost; ///< in map() calls a surfel
     std::string_view good, bad;
     ChannelSet gives;
+    bool on_mesh;          ///< whether it asks the triangles and not the field
+    float document_radius; ///< that the constants of the formula stand for; 0 where it has none
     std::vector<ParameterInfo> (*parameters)();
     /// Settings of parameters the method has not are passed over.
-    ChannelValues (*bake)(std::span<const Surfel>, const AnyField&, const Settings&, ChannelSet wanted,
+    ChannelValues (*bake)(std::span<const Surfel>, const Occluders&, const Settings&, ChannelSet wanted,
                           const Progress&);
 };
 
@@ -57,8 +59,9 @@ std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
 /// what there is.
 void check_settings(std::span<const Method* const> methods, const Settings& settings);
 
-/// All wanted channels. \throw what methods_for() and check_settings() throw.
-ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field, const Method& chosen,
+/// All wanted channels. \throw what methods_for() and check_settings() throw, and InputError where there is
+/// neither field nor triangles of the kind that a method asks.
+ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
                             const Settings& settings, ChannelSet wanted, const Progress& progress = {});
 
 }

@@ -40,17 +40,18 @@ struct Jittered {
             parameter<&Jittered::falloff>("falloff", 0, 100, "", "of the second formula"),
         };
     }
-    constexpr float document_radius() const { return falloff_form ? 1.0f : 4.0f; }
+    static constexpr float document_radius = 4.0f, document_radius_of_falloff = 1.0f;
 
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const {
-        const float scale = radius / document_radius();
+        const float of_form = falloff_form ? document_radius_of_falloff : document_radius;
+        const float scale = radius / of_form;
         const int first = falloff_form ? 0 : 1;
         SurfelBatch::Values sum{}, distances;
         for (int i = first; i < first + samples; ++i) {
             const double jitter = document_hash(i);
             const auto height =
-                static_cast<float>(falloff_form ? jitter : (i + jitter) * 0.5 / samples * document_radius());
+                static_cast<float>(falloff_form ? jitter : (i + jitter) * 0.5 / samples * of_form);
             probe_along_normal(field, surfels, height * scale, distances.data());
             for (std::size_t k = 0; k < surfels.count; ++k) {
                 const float d = distances[k] / scale;

@@ -1,0 +1,219 @@
+// Writes docs/methods.md: every method of the catalog on three scenes beside exact rays, with its error.
+//
+//     alcove_methods_page <folder of meshes> <docs folder>
+#include "words.h"
+
+#include <alcove/alcove.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace alcove::docs {
+namespace {
+
+constexpr ImageSize tile{400, 300};
+constexpr int reference_rays = 1024;
+
+/// A scene as one method sees it: a picture and the values that its error is measured by.
+struct Result {
+    Image image;
+    std::vector<float> values;
+};
+
+class Scene {
+  public:
+    virtual ~Scene() = default;
+    virtual Result result(const Method& method, const Settings& settings) const = 0;
+    virtual const Method& reference() const = 0;
+    /// The radius a method is shown at, unit space.
+    virtual float radius(const Method& method) const = 0;
+
+    const Result& truth(float radius) {
+        const auto [known, is_new] = truths_.try_emplace(radius);
+        if (is_new)
+            known->second = result(reference(), {.radius = radius, .parameters = {{"rays", reference_rays}}});
+        return known->second;
+    }
+
+  private:
+    std::map<float, Result> truths_;
+};
+
+struct Error {
+    double rmse = 0.0, bias = 0.0, deviation = 0.0; ///< deviation: of the truth
+};
+
+Error compare(std::span<const float> values, std::span<const float> truth) {
+    double squares = 0.0, sum = 0.0, mean = 0.0, mean_square = 0.0;
+    const auto count = static_cast<double>(truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const double difference = double(values[i]) - truth[i];
+        squares += difference * difference;
+        sum += difference;
+        mean += truth[i];
+        mean_square += double(truth[i]) * truth[i];
+    }
+    mean /= count;
+    return {std::sqrt(squares / count), sum / count,
+            std::sqrt(std::max(0.0, mean_square / count - mean * mean))};
+}
+
+/// The scene of "SDF Ambient Occlusion — Detailed Reference", in the document's own units.
+class DocumentsScene : public Scene {
+  public:
+    Result result(const Method& method, const Settings& settings) const override {
+        Result result{render(subject_, camera_, {.samples = 1, .method = &method, .settings = settings}), {}};
+        for (std::size_t i = 0; i < result.image.pixels(); ++i)
+            if (result.image.alpha[i] == 1.0f)
+                result.values.push_back(result.image.ao[i]);
+        return result;
+    }
+    /// There is no mesh for exact ones; of an exact field these are as good.
+    const Method& reference() const override { return find_method("traced"); }
+    float radius(const Method& method) const override {
+        return method.document_radius > 0.0f ? method.document_radius : 1.0f;
+    }
+
+  private:
+    static Box box() {
+        Box box;
+        box.add({-4.5, -0.5, -5.0});
+        box.add({4.5, 2.2, 7.0});
+        return box;
+    }
+
+    Subject subject_{Union(Plane{}, Sphere{{0, 1, 0}, 1.0f}, Torus{{0, 0.5f, 0}, 1.5f, 0.4f}), Frame{},
+                     box()};
+    Camera camera_{{0, 3, -6}, {0, 0.7, 0}, {0, 1, 0}, 40.0, tile};
+};
+
+/// A mesh, baked at its vertices.
+class Scan : public Scene {
+  public:
+    Scan(const std::filesystem::path& file, const CameraOptions& view)
+        : mesh_(read_mesh(file)), triangles_(triangulate(mesh_).triangles), frame_(frame_of(mesh_.box())),
+          surfels_(make_surfels(mesh_, triangles_, frame_)),
+          camera_(make_camera(view, mesh_.positions, tile)),
+          occluders_(LevelStack(voxelize(mesh_, triangles_, {.grid = {.radius = 0.2f}})),
+                     RaySurface(unit_positions(), triangles_)) {}
+
+    Result result(const Method& method, const Settings& settings) const override {
+        std::vector<float> ao =
+            std::move(bake_channels(surfels_, occluders_, method, settings, Channel::ao)[Channel::ao]);
+        Result result{paint(mesh_.positions, triangles_, ao, camera_), {}};
+        for (std::size_t i = 0; i < surfels_.size(); ++i)
+            if (surfels_[i].has_normal())
+                result.values.push_back(ao[i]);
+        return result;
+    }
+    const Method& reference() const override { return find_method("exact"); }
+    float radius(const Method&) const override { return 0.2f; }
+
+  private:
+    std::vector<Vec3> unit_positions() const {
+        std::vector<Vec3> positions;
+        for (const Vec3d& p : mesh_.positions)
+            positions.push_back(frame_.to_unit(p));
+        return positions;
+    }
+
+    Mesh mesh_;
+    std::vector<Triangle> triangles_;
+    Frame frame_;
+    std::vector<Surfel> surfels_;
+    Camera camera_;
+    Occluders occluders_;
+};
+
+/// Tiles side by side.
+Image row_of(const std::vector<Image>& tiles) {
+    Image row(tile.width * static_cast<int>(tiles.size()), tile.height);
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+        for (int y = 0; y < tile.height; ++y)
+            for (int x = 0; x < tile.width; ++x) {
+                const auto from = static_cast<std::size_t>(y * tile.width + x);
+                const auto to = static_cast<std::size_t>(y * row.width + x) + t * tile.width;
+                row.alpha[to] = tiles[t].alpha[from];
+                row.ao[to] = tiles[t].ao[from];
+            }
+    return row;
+}
+
+std::string parameters_of(const Method& method) {
+    std::string text;
+    for (const ParameterInfo& p : method.parameters())
+        text +=
+            fmt::format("{}`{}={}`{} {}", text.empty() ? "" : "; ", p.name,
+                        p.flag ? (p.standard != 0.0 ? "true" : "false") : fmt::format("{:.10g}", p.standard),
+                        p.unit.empty() ? "" : fmt::format(" {}", p.unit), p.summary);
+    return text.empty() ? "none" : text;
+}
+
+std::string section_of(const Method& method) {
+    return fmt::format(
+        "## {0}\n\n{1}.\n\n    {2}\n\nSource: {3}. Cost: {4} `map()` calls a point. Parameters: {5}."
+        "\n\n![{0}](images/methods/{0}.png)\n\nGood: {6}. Bad: {7}.\n\n{8}\n\n",
+        method.name, method.summary, method.formula, method.source, method.cost, parameters_of(method),
+        method.good, method.bad, honest_words.at(method.name));
+}
+
+void write_page(const std::filesystem::path& meshes, const std::filesystem::path& docs) {
+    const std::filesystem::path images = docs / "images" / "methods";
+    std::filesystem::create_directories(images);
+    DocumentsScene document;
+    Scan dragon(meshes / "ChineseDragon-10kv.off", {});
+    Scan armadillo(meshes / "armadillo.off", {.eye = Vec3d(110, 110, -280), .look_at = Vec3d(2, 28, 0)});
+    const std::array<Scene*, 3> scenes{&document, &dragon, &armadillo};
+
+    write_png(row_of({document.truth(1.0f).image, dragon.truth(0.2f).image, armadillo.truth(0.2f).image}),
+              images / "reference.png", Pass::ao);
+    std::string table, sections;
+    for (const Method& method : catalog()) {
+        if (!method.gives.has(Channel::ao))
+            continue;
+        std::vector<Image> tiles;
+        std::string cells;
+        for (Scene* scene : scenes) {
+            if (method.on_mesh && scene == &document) {
+                tiles.emplace_back(tile.width, tile.height);
+                cells += " no mesh |";
+                continue;
+            }
+            const float radius = scene->radius(method);
+            Result result = scene->result(method, {.radius = radius});
+            const Error error = compare(result.values, scene->truth(radius).values);
+            cells += fmt::format(" {:.3f} ({:+.3f}; {:.3f}) |", error.rmse, error.bias, error.deviation);
+            tiles.push_back(std::move(result.image));
+        }
+        std::cerr << method.name << cells << "\n";
+        write_png(row_of(tiles), images / fmt::format("{}.png", method.name), Pass::ao);
+        table += fmt::format("| [{0}](#{0}) |{1} {2} |\n", method.name, cells, method.cost);
+        sections += section_of(method);
+    }
+    std::ofstream page(docs / "methods.md");
+    page << page_head << fmt::format(table_head, reference_rays) << table << "\n" << sections;
+    if (!page.flush())
+        throw IoError((docs / "methods.md").string() + ": cannot be written");
+}
+
+}
+}
+
+int main(int argc, char** argv) {
+    if (argc != 3) {
+        std::cerr << "usage: alcove_methods_page MESHES DOCS\n";
+        return 2;
+    }
+    try {
+        alcove::docs::write_page(argv[1], argv[2]);
+        return 0;
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << "\n";
+        return 1;
+    }
+}
