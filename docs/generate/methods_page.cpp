@@ -16,8 +16,7 @@
 namespace alcove::docs {
 namespace {
 
-constexpr ImageSize tile{400, 300};
-constexpr int reference_rays = 1024;
+constexpr ImageSize tile{320, 240};
 
 /// A scene as one method sees it: a picture and the values that its error is measured by.
 struct Result {
@@ -30,13 +29,15 @@ class Scene {
     virtual ~Scene() = default;
     virtual Result result(const Method& method, const Settings& settings) const = 0;
     virtual const Method& reference() const = 0;
+    virtual int reference_rays() const = 0;
     /// The radius a method is shown at, unit space.
     virtual float radius(const Method& method) const = 0;
 
     const Result& truth(float radius) {
         const auto [known, is_new] = truths_.try_emplace(radius);
         if (is_new)
-            known->second = result(reference(), {.radius = radius, .parameters = {{"rays", reference_rays}}});
+            known->second =
+                result(reference(), {.radius = radius, .parameters = {{"rays", reference_rays()}}});
         return known->second;
     }
 
@@ -75,6 +76,7 @@ class DocumentsScene : public Scene {
     }
     /// There is no mesh for exact ones; of an exact field these are as good.
     const Method& reference() const override { return find_method("traced"); }
+    int reference_rays() const override { return 256; }
     float radius(const Method& method) const override {
         return method.document_radius > 0.0f ? method.document_radius : 1.0f;
     }
@@ -112,6 +114,7 @@ class Scan : public Scene {
         return result;
     }
     const Method& reference() const override { return find_method("exact"); }
+    int reference_rays() const override { return 1024; }
     float radius(const Method&) const override { return 0.2f; }
 
   private:
@@ -196,7 +199,7 @@ void write_page(const std::filesystem::path& meshes, const std::filesystem::path
         sections += section_of(method);
     }
     std::ofstream page(docs / "methods.md");
-    page << page_head << fmt::format(table_head, reference_rays) << table << "\n" << sections;
+    page << page_head << table_head << table << "\n" << sections;
     if (!page.flush())
         throw IoError((docs / "methods.md").string() + ": cannot be written");
 }

@@ -20,8 +20,8 @@ default settings. Black is 0, white is 1. This is what exact rays say (of the do
 
 )";
 
-inline constexpr std::string_view table_head = R"(RMSE against {} cosine-weighted rays a point (pixels of the
-documents' scene, vertices of the scans), with the bias and, after the semicolon, the standard deviation of the truth,
+inline constexpr std::string_view table_head = R"(RMSE against cosine-weighted rays, 256 a pixel of the
+documents' scene (sphere-traced, for it has no mesh) and 1,024 a vertex of the scans, with the bias and, after the semicolon, the standard deviation of the truth,
 which is what the best constant guess would score:
 
 | method | documents' scene | ChineseDragon-10kv | armadillo | `map()` calls a point |
