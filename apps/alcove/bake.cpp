@@ -1,12 +1,13 @@
+#include "bake_input.h"
 #include "common.h"
 #include "method_options.h"
+#include "parts.h"
+#include "surroundings.h"
 #include "voxelized.h"
 
 #include "alcove/errors.h"
-#include "alcove/field/level_stack.h"
 #include "alcove/grid/grid_io.h"
 #include "alcove/mesh/colors.h"
-#include "alcove/mesh/normals.h"
 #include "alcove/mesh/source.h"
 #include "alcove/mesh/write.h"
 
@@ -23,8 +24,9 @@ struct BakeOptions {
     CommonOptions common;
     GridRequest grid;
     MethodRequest method;
-    std::string input, output, attributes = "ao", normals = "auto", color, color_encoding = "srgb",
-                               write_grid;
+    BakeInputRequest source;
+    SurroundingsRequest surroundings;
+    std::string output, attributes = "ao", normals = "auto", color, color_encoding = "srgb", write_grid;
 };
 
 constexpr const char* provenance = "alcove ";
@@ -118,22 +120,27 @@ void run(const BakeOptions& options) {
         throw UsageError(options.output + ": meshes are written as .ply or .obj; name the output so");
     if (!options.write_grid.empty())
         check_grid_output(options.write_grid);
+    if (!options.write_grid.empty() && options.source.self)
+        throw UsageError("--self makes a grid for each part, --write-grid keeps one: leave out either");
 
     nlohmann::ordered_json seconds;
-    GridRequest grid = options.grid;
-    grid.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
+    GridRequest grid_request = options.grid;
+    grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
         return channel.inside && wanted.has(channel.channel);
     });
-    VoxelizedMesh input = read_and_voxelize(options.input, grid, options.common, seconds);
+    VoxelizedMesh input = read_bake_input(options.source, grid_request, options.common, seconds);
     Mesh& mesh = input.mesh;
     Stopwatch watch;
-    const LevelStack field(input.stack);
+    const Surroundings surroundings(options.surroundings, input);
+    std::optional<AnyField> field; // of the whole mesh
+    if (!options.source.self)
+        field = surroundings.around(LevelStack(input.stack), input.frame);
     if (!options.write_grid.empty())
         write_grids(input.stack, options.write_grid);
     seconds["grid"] = seconds["grid"].get<double>() + watch.lap();
 
     if (normals == NormalSource::file && mesh.normals.empty())
-        throw InputError(options.input + ": has no normals of its own: use --normals area");
+        throw InputError(options.source.input + ": has no normals of its own: use --normals area");
     const std::vector<Surfel> surfels = make_surfels(mesh, input.triangles, input.frame, normals);
     const auto bare =
         std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
@@ -143,18 +150,23 @@ void run(const BakeOptions& options) {
                         "cancel) and got ao = 1",
                         grouped(static_cast<std::size_t>(bare)), grouped(surfels.size())));
     settings.radius = input.radius;
-    ChannelValues values;
+    PartsBake baked;
     {
         ProgressMeter meter(options.common.progress_mode(), "baking");
-        values = bake_channels(surfels, AnyField(field), method, settings, wanted, std::ref(meter));
+        if (field)
+            baked = {bake_channels(surfels, *field, method, settings, wanted, std::ref(meter)),
+                     facts_of(input.stack)};
+        else
+            baked = bake_parts(input, surroundings, method, settings, wanted, normals, std::ref(meter));
     }
-    seconds["occlusion"] = watch.lap();
+    auto& [values, grid, grid_seconds] = baked;
+    seconds["grid"] = seconds["grid"].get<double>() + grid_seconds;
+    seconds["occlusion"] = watch.lap() - grid_seconds;
 
     const double radius = double(input.radius) * input.frame.diagonal;
-    const double voxel = double(input.stack.levels.front().voxel) * input.frame.diagonal;
     WriteOptions writing;
     writing.comments.push_back(fmt::format("alcove {}: {} by {}, radius {:.6g}, voxel {:.6g}", ALCOVE_VERSION,
-                                           names_of(wanted), method.name, radius, voxel));
+                                           names_of(wanted), method.name, radius, grid.voxel));
     const bool colored = wants_colors(options.color, wanted, mesh);
     if (!colored && to_obj)
         throw UsageError(options.output +
@@ -173,17 +185,17 @@ void run(const BakeOptions& options) {
 
     print_warnings(input.warnings, options.common);
     if (options.common.json)
-        print_json({{"input", options.input},
+        print_json({{"input", options.source.input},
                     {"output", options.output},
                     {"vertices", mesh.vertex_count()},
                     {"faces", mesh.face_count()},
                     {"attributes", names_of(wanted)},
                     {"method", method.name},
                     {"radius", radius},
-                    {"voxel", voxel},
-                    {"levels", input.stack.levels.size()},
-                    {"sign", name_of(input.stack.sign)},
-                    {"grid_bytes", input.stack.bytes()},
+                    {"voxel", grid.voxel},
+                    {"levels", grid.levels},
+                    {"sign", name_of(grid.sign)},
+                    {"grid_bytes", grid.bytes + surroundings.bytes()},
                     {"estimated_rmse", nullptr},
                     {"seconds", seconds},
                     {"peak_rss_bytes", peak_rss_bytes()},
@@ -191,8 +203,7 @@ void run(const BakeOptions& options) {
     else if (!options.common.quiet)
         fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, as a {} of {} level{} from voxel {:.4g}\n",
                    options.output, names_of(wanted), grouped(mesh.vertex_count()), method.name, radius,
-                   name_of(input.stack.sign), input.stack.levels.size(),
-                   input.stack.levels.size() == 1 ? "" : "s", voxel);
+                   name_of(grid.sign), grid.levels, grid.levels == 1 ? "" : "s", grid.voxel);
 }
 
 }
@@ -201,7 +212,9 @@ void add_bake(CLI::App& program) {
     auto* verb =
         program.add_subcommand("bake", "Compute ambient occlusion and masks at the vertices of a mesh");
     auto options = std::make_shared<BakeOptions>();
-    verb->add_option("input", options->input, "Mesh to bake (ply, obj, off, stl)")->required();
+    verb->add_option("input", options->source.input,
+                     "Mesh to bake (ply, obj, off, stl), or grid (vdb) to mesh at its zero surface first")
+        ->required();
     verb->add_option("-o,--output", options->output, "Mesh to write (ply, obj)")->required();
     add_radius_option(*verb, options->grid,
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
@@ -215,6 +228,8 @@ void add_bake(CLI::App& program) {
         ->type_name("SOURCE")
         ->capture_default_str();
     add_grid_options(*verb, options->grid);
+    add_bake_input_options(*verb, options->source);
+    add_surroundings_options(*verb, options->surroundings);
     verb->add_option("--write-grid", options->write_grid, "Keep the level sets in a .vdb")->type_name("FILE");
     verb->add_option(
             "--color", options->color,
@@ -228,7 +243,12 @@ void add_bake(CLI::App& program) {
                  "  alcove bake scan.ply -o scan_ao.ply\n"
                  "  alcove bake part.stl -o part_ao.ply --radius 5% --rays 256\n"
                  "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n"
-                 "  alcove bake scan.ply -o masks.ply --attributes ao,convexity,bent_normal,thickness\n");
+                 "  alcove bake scan.ply -o masks.ply --attributes ao,convexity,bent_normal,thickness\n"
+                 "  alcove bake chair.ply -o chair_ao.ply --ground --up 0,0,1 --occluder table.ply\n"
+                 "  alcove bake kit.obj -o kit_ao.obj --self\n"
+                 "  alcove bake level_set.vdb -o level_set_ao.ply --adaptivity 0.2\n"
+                 "  alcove bake scan.ply -o scan_ao.ply --write-grid scan.vdb\n"
+                 "  alcove bake scan.ply -o scan_ao.ply --grid scan.vdb --method classic\n");
     verb->callback([options] { run(*options); });
 }
 

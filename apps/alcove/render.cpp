@@ -1,6 +1,7 @@
 #include "common.h"
 #include "length.h"
 #include "method_options.h"
+#include "vector.h"
 #include "voxelized.h"
 
 #include "alcove/atomic_file.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -41,21 +41,6 @@ struct Scene {
     float radius; // unit space
     std::vector<std::string> warnings;
 };
-
-Vec3d parse_vector(const std::string& text, const char* option) {
-    Vec3d v;
-    const char* at = text.c_str();
-    for (int axis = 0; axis < 3; ++axis) {
-        char* end = nullptr;
-        v[axis] = std::strtod(at, &end);
-        const bool last = axis == 2;
-        if (end == at || !std::isfinite(v[axis]) || *end != (last ? '\0' : ','))
-            throw UsageError(
-                fmt::format("{} takes three numbers, not '{}': write {} 1,2.5,-3", option, text, option));
-        at = end + 1;
-    }
-    return v;
-}
 
 Pass parse_pass(const std::string& text) {
     static const std::map<std::string_view, Pass> passes{
@@ -93,10 +78,8 @@ CameraOptions camera_options(const Options& options) {
         camera.eye = parse_vector(options.eye, "--eye");
     if (!options.look_at.empty())
         camera.look_at = parse_vector(options.look_at, "--look-at");
-    camera.up = parse_vector(options.up, "--up");
+    camera.up = parse_direction(options.up, "--up");
     camera.fov = options.fov;
-    if (camera.up == Vec3d(0.0))
-        throw UsageError("--up takes a direction, not 0,0,0: write --up 0,1,0 or --up 0,0,1");
     if (camera.eye && camera.look_at && *camera.eye == *camera.look_at)
         throw UsageError("--eye and --look-at are the same point: move one of them");
     if (!(camera.fov >= 1.0 && camera.fov <= 170.0))

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace alcove::cli {
@@ -41,8 +42,21 @@ void add_grid_options(CLI::App& verb, GridRequest& request) {
         ->capture_default_str();
 }
 
-VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,
-                                const CommonOptions& common, nlohmann::ordered_json& seconds) {
+void GridFacts::include(const GridFacts& other) {
+    voxel = std::max(voxel, other.voxel);
+    levels = std::max(levels, other.levels);
+    bytes = std::max(bytes, other.bytes);
+    if (other.sign == Sign::sheet)
+        sign = Sign::sheet;
+}
+
+GridFacts facts_of(const GridStack& stack) {
+    return {stack.levels.front().voxel * stack.frame.diagonal, stack.levels.size(), stack.bytes(),
+            stack.sign};
+}
+
+VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& request,
+                               nlohmann::ordered_json& seconds) {
     // What is wrong on the command line is said before any work.
     const Length radius = parse_length(request.radius, "--radius");
     const bool automatic = request.voxel == "auto";
@@ -54,25 +68,31 @@ VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& req
     if (automatic && radius.unit == Length::Unit::voxels)
         throw UsageError(
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
-    VoxelizeOptions options;
-    options.sign = parse_sign(request.sign);
-    options.grid.outer_band = request.band;
+    VoxelizedMesh result;
+    GridOptions& grid = result.options.grid;
+    result.options.sign = parse_sign(request.sign);
+    grid.outer_band = request.band;
     if (request.inside)
-        options.grid.inner_band = request.band;
+        grid.inner_band = request.band;
 
     Stopwatch watch;
-    VoxelizedMesh result;
     result.mesh = read_mesh(input);
     result.warnings = result.mesh.warnings;
+    result.triangles = triangulate(result.mesh).triangles;
     result.frame = frame_of(result.mesh.box());
+    grid.voxel = automatic ? 0.0f : voxel.to_unit(result.frame.diagonal);
+    grid.radius = radius.to_unit(result.frame.diagonal, grid.voxel);
+    result.radius = grid.radius;
     seconds["read"] = watch.lap();
+    return result;
+}
 
-    Triangulation triangulation = triangulate(result.mesh);
-    result.triangles = std::move(triangulation.triangles);
-    options.grid.voxel = automatic ? 0.0f : voxel.to_unit(result.frame.diagonal);
-    options.grid.radius = radius.to_unit(result.frame.diagonal, options.grid.voxel);
-    result.radius = options.grid.radius;
+VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,
+                                const CommonOptions& common, nlohmann::ordered_json& seconds) {
+    VoxelizedMesh result = read_to_voxelize(input, request, seconds);
+    Stopwatch watch;
     ProgressMeter meter(common.progress_mode(), "voxelizing");
+    VoxelizeOptions options = result.options;
     options.progress = std::ref(meter);
     try {
         result.stack = voxelize(result.mesh, result.triangles, options);

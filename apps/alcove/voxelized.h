@@ -24,10 +24,26 @@ struct VoxelizedMesh {
     Mesh mesh;
     std::vector<Triangle> triangles;
     Frame frame;
-    float radius = 0.0f; ///< unit space
+    float radius = 0.0f;     ///< unit space
+    VoxelizeOptions options; ///< what the request comes to, unit space
     GridStack stack;
     std::vector<std::string> warnings; ///< of reading and voxelizing
 };
+
+/// What a bake says of its grids.
+struct GridFacts {
+    double voxel = 0.0; ///< finest, scene units
+    std::size_t levels = 0, bytes = 0;
+    Sign sign = Sign::solid;
+
+    /// The larger of each; a sheet where any is.
+    void include(const GridFacts& other);
+};
+GridFacts facts_of(const GridStack& stack);
+
+/// All but the stack. Puts `read` into `seconds`. \throw UsageError, and what read_mesh() throws.
+VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& request,
+                               nlohmann::ordered_json& seconds);
 
 /// Puts `read` and `grid` into `seconds`. \throw UsageError, and what read_mesh() and voxelize() throw.
 VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,

@@ -16,10 +16,12 @@
 #include "alcove/parallel.h"
 #include "alcove/types.h"
 
+#include "alcove/mesh/clip.h"
 #include "alcove/mesh/colors.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
+#include "alcove/mesh/parts.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/source.h"
 #include "alcove/mesh/triangulate.h"
@@ -27,6 +29,7 @@
 
 #include "alcove/grid/grid_io.h"
 #include "alcove/grid/grid_stack.h"
+#include "alcove/grid/mesh_grid.h"
 #include "alcove/grid/plan.h"
 #include "alcove/grid/voxelize.h"
 

@@ -15,7 +15,8 @@ struct Verb {
 const std::vector<Verb> verbs{
     {"bake",
      {"--radius", "--method", "--samples", "--rays", "--seed", "--normals", "--sign", "--voxel",
-      "--write-grid", "--color", "--color-encoding"}},
+      "--write-grid", "--color", "--color-encoding", "--grid", "--adaptivity", "--self", "--occluder",
+      "--ground", "--up"}},
     {"voxelize", {"--voxel", "--band", "--radius"}},
     {"render", {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov"}},
     {"info", {}},

@@ -71,6 +71,29 @@ TEST(LevelStack, FarDistancesComeFromCoarserLevelsAndNeverSaturate) {
     }
 }
 
+TEST(LevelStack, FarOutTheAnswerIsABoundThatGrowsWithTheDistance) {
+    const LevelStack field(stack_of(test::sphere_mesh(4), 1.0f / 64.0f, 0.1f));
+    const Sphere sphere{Vec3(0.0f), static_cast<float>(0.5 / std::sqrt(3.0))};
+    EXPECT_GE(field.extent(), sphere.radius);
+    EXPECT_LT(field.extent(), 0.8f);
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal;
+    for (const float far : {0.5f, 1.0f, 3.0f, 100.0f}) {
+        PointCloud cloud;
+        for (int i = 0; i < 300; ++i)
+            cloud.push_back(far * glm::normalize(Vec3(normal(random), normal(random), normal(random))));
+        std::vector<float> distances(cloud.x.size());
+        map_batch(field, cloud.points(), any_reach, distances.data());
+        for (std::size_t i = 0; i < distances.size(); ++i) {
+            const Vec3 p = cloud.points()[i];
+            EXPECT_EQ(distances[i], field.map(p));
+            EXPECT_LE(distances[i], 1.0001f * sphere.map(p) + 1e-3f);
+            // No further from the box around the surface than that box is wide.
+            EXPECT_GE(distances[i], std::max(field.reach(), sphere.map(p) - field.extent()));
+        }
+    }
+}
+
 TEST(LevelStack, ProbesOfKnownReachReadOneLevelAndAgree) {
     const test::RealMesh real("elephant.off");
     const LevelStack field(stack_of(real.mesh, 1.0f / 128.0f, 0.2f));

@@ -116,5 +116,70 @@ TEST(Combine, BatchedFormsEqualScalarOnes) {
     }
 }
 
+/// A field of one layer: its sign says nothing beyond it.
+struct Sheet {
+    Plane plane;
+    float map(const Vec3& p) const {
+        const float d = plane.map(p);
+        return d < -0.01f ? -d : d;
+    }
+    float resolution() const { return 0.02f; }
+    float extent() const { return 3.0f; }
+    bool two_sided() const { return true; }
+};
+
+TEST(Combine, AUnionKnownAtRunTimeEqualsTheOneKnownBefore) {
+    const Union fixed(sphere, torus, plane);
+    const UnionOf<AnyField> list({sphere, torus, plane});
+    std::mt19937 random(10);
+    std::uniform_real_distribution<float> coordinate(-2.0f, 2.0f);
+    std::vector<float> x(600), y(600), z(600), a(600), b(600);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = coordinate(random), y[i] = coordinate(random), z[i] = coordinate(random);
+    const Points points{x.data(), y.data(), z.data(), x.size()};
+    map_batch(fixed, points, any_reach, a.data());
+    map_batch(list, points, any_reach, b.data());
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(list.map({0.5f, 0.1f, 1.0f}), fixed.map({0.5f, 0.1f, 1.0f}));
+    EXPECT_EQ(UnionOf<Sphere>({}).map({1, 2, 3}), any_reach);
+}
+
+TEST(Combine, ASheetJoinsASolidWithoutHidingInIt) {
+    const Sheet sheet{{{0, 1, 0}, 0.0f}};
+    const Sphere solid{{0, 0, 0}, 1.0f};
+    const UnionOf<AnyField> field({solid, sheet});
+    EXPECT_TRUE(field.two_sided());
+    EXPECT_EQ(field.resolution(), 0.02f);
+    for (const float x : {0.0f, 0.5f, 1.5f, 3.0f})
+        for (const float y : {-2.0f, -0.5f, -0.005f, 0.005f, 0.5f, 2.0f}) {
+            const Vec3 p(x, y, 0.1f);
+            const float s = solid.map(p);
+            // All of the solid is its surface: a ray that starts in it ends there.
+            if (s <= 0.0f)
+                EXPECT_EQ(field.map(p), 0.0f);
+            else
+                EXPECT_EQ(field.map(p), s < std::fabs(sheet.map(p)) ? s : sheet.map(p));
+            float batched = 0.0f;
+            field.map({&p.x, &p.y, &p.z, 1}, any_reach, &batched);
+            EXPECT_EQ(batched, field.map(p));
+        }
+}
+
+TEST(Combine, TheExtentIsThatOfTheFurthestPart) {
+    const Sheet sheet{};
+    const Transformed<Sheet> moved{sheet, glm::mat3(1.0f), 2.0f, {0, 4, 0}};
+    EXPECT_FLOAT_EQ(extent(moved), 10.0f);
+    EXPECT_FLOAT_EQ(extent(AnyField(UnionOf<AnyField>({sheet, moved}))), 10.0f);
+    EXPECT_EQ(extent(Union(sheet, plane)), any_reach);
+}
+
+TEST(Combine, APlacedFieldMeansTheSamePlacesOfTheScene) {
+    const Frame from{{10, -3, 2}, 4.0}, to{{8, 0, 0}, 0.5};
+    const auto field = placed(sphere, from, to);
+    for (const Vec3d& p : {Vec3d(10, -3, 2), Vec3d(13, 1, 2.5), Vec3d(8.5, -2, 1)})
+        EXPECT_NEAR(field.map(to.to_unit(p)) * to.diagonal, sphere.map(from.to_unit(p)) * from.diagonal,
+                    1e-5);
+}
+
 }
 }

@@ -142,6 +142,13 @@ TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
     write_foreign(fog, "fog.vdb", 0);
     EXPECT_NE(refusal("fog.vdb").find("no level set"), std::string::npos);
 
+    const auto unsigned_distances =
+        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    for (auto value = unsigned_distances->beginValueAll(); value; ++value)
+        value.setValue(std::fabs(*value));
+    write_foreign(unsigned_distances, "unsigned.vdb", 0);
+    EXPECT_NE(refusal("unsigned.vdb").find("no negative distance"), std::string::npos);
+
     const auto vectors = openvdb::Vec3SGrid::create();
     write_foreign(vectors, "vectors.vdb", 0);
     EXPECT_NE(refusal("vectors.vdb").find("no grid of floats"), std::string::npos);

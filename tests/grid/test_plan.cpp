@@ -29,6 +29,13 @@ TEST(Plan, TheLastLevelReachesTheRadius) {
     }
 }
 
+TEST(Plan, AChosenVoxelIsAtMostTheLargest) {
+    const Mesh mesh = test::sphere_mesh(3);
+    EXPECT_EQ(plan(mesh, {}).voxel, 1.0f / 256.0f);
+    EXPECT_EQ(plan(mesh, {.largest_voxel = 0.002f}).voxel, 0.002f);
+    EXPECT_EQ(plan(mesh, {.voxel = 0.01f, .largest_voxel = 0.002f}).voxel, 0.01f);
+}
+
 TEST(Plan, AVoxelThatDoesNotFitIsRefusedWithOneThatDoes) {
     const Mesh mesh = test::sphere_mesh(3);
     try {

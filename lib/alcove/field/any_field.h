@@ -19,6 +19,7 @@ class AnyField {
         self_->map_many(points, reach, distances);
     }
     float resolution() const { return self_->finest(); }
+    float extent() const { return self_->furthest(); }
     bool two_sided() const { return self_->both_sides(); }
 
   private:
@@ -27,6 +28,7 @@ class AnyField {
         virtual float map_one(const Vec3& p) const = 0;
         virtual void map_many(const Points& points, float reach, float* distances) const = 0;
         virtual float finest() const = 0;
+        virtual float furthest() const = 0;
         virtual bool both_sides() const = 0;
     };
 
@@ -38,6 +40,7 @@ class AnyField {
             map_batch(field, points, reach, distances);
         }
         float finest() const override { return alcove::resolution(field); }
+        float furthest() const override { return alcove::extent(field); }
         bool both_sides() const override { return alcove::two_sided(field); }
         F field;
     };

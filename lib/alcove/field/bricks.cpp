@@ -45,6 +45,13 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
         box.expand(leaf->origin());
     if (leaves.empty())
         box = openvdb::CoordBBox(Coord(0), Coord(0));
+    // Between the outermost voxels and the next ones, a surface may still cross.
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = static_cast<float>(box.min()[axis] - 1);
+        const float high = static_cast<float>(box.max()[axis] + cells);
+        bounds_.center[axis] = origin_[axis] + 0.5f * (low + high) * voxel_;
+        bounds_.half_extent[axis] = 0.5f * (high - low) * voxel_;
+    }
 
     // A brick needs the leaf at its origin and the next ones up; one more brick around everything is border.
     const Coord low = box.min().offsetBy(-2 * cells);

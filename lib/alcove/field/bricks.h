@@ -5,6 +5,7 @@
 #pragma once
 
 #include "alcove/field/field.h"
+#include "alcove/field/primitives.h"
 #include "alcove/grid/grid_stack.h"
 
 #include <cstdint>
@@ -38,6 +39,8 @@ class Bricks {
     const Vec3& origin() const { return origin_; }
     /// Distances below this are right; above, the outermost voxel of the band spoils the interpolation.
     float usable() const { return usable_; }
+    /// A box around the surface, no more than the band and a brick wider.
+    const Cuboid& bounds() const { return bounds_; }
     std::size_t bytes() const { return (index_.size() + bricks_.size()) * sizeof(float); }
 
     /// The scalar twin of sample_bricks(), and its oracle.
@@ -49,6 +52,7 @@ class Bricks {
     std::int32_t size_[3] = {0, 0, 0};
     float voxel_ = 0.0f, usable_ = 0.0f;
     Vec3 origin_{0.0f};
+    Cuboid bounds_;
     Vec3 offset_{0.0f}; // sample coordinate = p / voxel + offset
 };
 

@@ -8,45 +8,100 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
+#include <vector>
 
 namespace alcove {
 
 /// Points worked on at a time by batched combinations: small enough for their copies to stay in the L1 cache.
 inline constexpr std::size_t combine_block = 256;
 
-/// The union of all parts: the nearest of them. Exact outside; inside a bound.
-template <Field... Parts>
-struct Union {
-    std::tuple<Parts...> parts;
-
-    explicit Union(Parts... fields) : parts(std::move(fields)...) {}
-
+/// What unions share; `Self` visits its parts by `for_each_part(visit)`.
+///
+/// Where no part is two-sided the least distance wins. Else the one nearest to 0 does, the inside of the other
+/// parts being 0: the sign of a sheet says nothing about what is beside it, the depth in a solid must not hide
+/// a sheet within, and rays end in a solid as they would if it were alone.
+template <class Self>
+struct UnionBase {
     float map(const Vec3& p) const {
-        return std::apply([&](const auto&... part) { return std::min({static_cast<float>(part.map(p))...}); },
-                          parts);
+        const bool sheets = two_sided();
+        float distance = any_reach;
+        self().for_each_part([&](const auto& part) {
+            distance =
+                join(distance, static_cast<float>(part.map(p)), sheets && !alcove::two_sided(part), sheets);
+        });
+        return distance;
     }
 
     void map(const Points& points, float reach, float* distances) const {
+        const bool sheets = two_sided();
         std::array<float, combine_block> other;
         for (std::size_t begin = 0; begin < points.count; begin += combine_block) {
             const Points block{points.x + begin, points.y + begin, points.z + begin,
                                std::min(combine_block, points.count - begin)};
             std::fill_n(distances + begin, block.count, any_reach);
-            const auto join = [&](const auto& part) {
+            self().for_each_part([&](const auto& part) {
                 map_batch(part, block, reach, other.data());
+                const bool filled = sheets && !alcove::two_sided(part);
                 for (std::size_t i = 0; i < block.count; ++i)
-                    distances[begin + i] = std::min(distances[begin + i], other[i]);
-            };
-            std::apply([&](const auto&... part) { (join(part), ...); }, parts);
+                    distances[begin + i] = join(distances[begin + i], other[i], filled, sheets);
+            });
         }
     }
 
     float resolution() const {
-        return std::apply([](const auto&... part) { return std::max({alcove::resolution(part)...}); }, parts);
+        float coarsest = 0.0f;
+        self().for_each_part(
+            [&](const auto& part) { coarsest = std::max(coarsest, alcove::resolution(part)); });
+        return coarsest;
+    }
+    float extent() const {
+        float furthest = 0.0f;
+        self().for_each_part([&](const auto& part) { furthest = std::max(furthest, alcove::extent(part)); });
+        return furthest;
     }
     bool two_sided() const {
-        return std::apply([](const auto&... part) { return (alcove::two_sided(part) || ...); }, parts);
+        bool any = false;
+        self().for_each_part([&](const auto& part) { any = any || alcove::two_sided(part); });
+        return any;
+    }
+
+  private:
+    const Self& self() const { return static_cast<const Self&>(*this); }
+
+    static float join(float so_far, float part, bool filled, bool sheets) {
+        if (!sheets)
+            return std::min(so_far, part);
+        const float d = filled ? std::max(part, 0.0f) : part;
+        return std::fabs(d) < std::fabs(so_far) ? d : so_far;
+    }
+};
+
+/// The union of parts of different types. Exact outside; inside a bound.
+template <Field... Parts>
+struct Union : UnionBase<Union<Parts...>> {
+    std::tuple<Parts...> parts;
+
+    explicit Union(Parts... fields) : parts(std::move(fields)...) {}
+
+    template <class Visit>
+    void for_each_part(const Visit& visit) const {
+        std::apply([&](const auto&... part) { (visit(part), ...); }, parts);
+    }
+};
+
+/// The union of any number of parts, known at run time. Of none: no surface anywhere.
+template <Field F>
+struct UnionOf : UnionBase<UnionOf<F>> {
+    std::vector<F> parts;
+
+    explicit UnionOf(std::vector<F> fields) : parts(std::move(fields)) {}
+
+    template <class Visit>
+    void for_each_part(const Visit& visit) const {
+        for (const F& part : parts)
+            visit(part);
     }
 };
 
@@ -75,10 +130,18 @@ struct Transformed {
     }
 
     float resolution() const { return scale * alcove::resolution(field); }
+    float extent() const { return scale * alcove::extent(field) + glm::length(translation); }
     bool two_sided() const { return alcove::two_sided(field); }
 
   private:
     Vec3 to_local(const Vec3& p) const { return glm::transpose(rotation) * (p - translation) / scale; }
 };
+
+/// A field of the unit space of one frame in that of another.
+template <Field F>
+Transformed<F> placed(F field, const Frame& from, const Frame& to) {
+    return {std::move(field), glm::mat3(1.0f), static_cast<float>(from.diagonal / to.diagonal),
+            Vec3((from.center - to.center) / to.diagonal)};
+}
 
 }

@@ -61,6 +61,18 @@ float resolution(const F& field) {
         return 0.0f;
 }
 
+/// No point of the surface is further from the origin than this: a ray that starts at the surface meets it
+/// within twice as much, or never. Infinite for fields that do not know.
+template <Field F>
+float extent(const F& field) {
+    if constexpr (requires {
+                      { field.extent() } -> std::convertible_to<float>;
+                  })
+        return field.extent();
+    else
+        return std::numeric_limits<float>::infinity();
+}
+
 /// Whether both sides of the surface are air and the sign only tells a thin layer behind it (Sign::sheet).
 template <Field F>
 bool two_sided(const F& field) {

@@ -24,6 +24,11 @@ std::size_t LevelStack::bytes() const {
     return sum;
 }
 
+float LevelStack::extent() const {
+    const Cuboid& bounds = levels_->front().bounds();
+    return glm::length(glm::abs(bounds.center) + bounds.half_extent);
+}
+
 std::size_t LevelStack::level_for(float reach) const {
     std::size_t level = 0;
     while (level + 1 < levels_->size() && (*levels_)[level].usable() < reach)
@@ -32,12 +37,16 @@ std::size_t LevelStack::level_for(float reach) const {
 }
 
 float LevelStack::map(const Vec3& p) const {
+    float distance = levels_->front().map(p), nearest = levels_->front().usable();
+    if (distance < nearest)
+        return distance;
+    if (const float outside = levels_->front().bounds().map(p); outside >= reach())
+        return outside;
     // What a finer level could not reach is no nearer than that: behind a sheet the coarser one does not
     // know.
-    float nearest = -any_reach, distance = 0.0f;
-    for (const Bricks& level : *levels_) {
-        distance = std::max(level.map(p), nearest);
-        nearest = level.usable();
+    for (std::size_t level = 1; level < levels_->size(); ++level) {
+        distance = std::max((*levels_)[level].map(p), nearest);
+        nearest = (*levels_)[level].usable();
         if (distance < nearest)
             break;
     }
@@ -61,8 +70,13 @@ void LevelStack::escalate(const Points& points, float* distances) const {
     std::array<std::uint16_t, block> far; // the points that the level before could not answer
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i)
-        if (distances[i] >= levels_->front().usable())
-            far[count++] = static_cast<std::uint16_t>(i);
+        if (distances[i] >= levels_->front().usable()) {
+            const float outside = levels_->front().bounds().map(points[i]);
+            if (outside >= reach())
+                distances[i] = outside;
+            else
+                far[count++] = static_cast<std::uint16_t>(i);
+        }
     for (std::size_t level = 1; level < levels_->size() && count > 0; ++level) {
         for (std::size_t k = 0; k < count; ++k) {
             x[k] = points.x[far[k]];

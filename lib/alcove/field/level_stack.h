@@ -9,7 +9,7 @@ namespace alcove {
 
 /// Distances in unit space, trilinear on the finest level whose band holds them: neither saturated values nor
 /// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the
-/// value saturates there: a lower bound of the true distance. A probe known to be no further than `reach`
+/// answer is a lower bound: the end of that band, or the distance to the box around the surface. A probe known to be no further than `reach`
 /// from the surface reads the one level made for that height, its voxel at most half of it.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
@@ -25,6 +25,7 @@ class LevelStack {
     float resolution() const { return levels_->front().voxel(); }
     /// Whether it is that of a sheet.
     bool two_sided() const { return two_sided_; }
+    float extent() const;
     /// Largest distance that is right.
     float reach() const { return levels_->back().usable(); }
     const std::vector<Bricks>& levels() const { return *levels_; }

@@ -76,16 +76,6 @@ void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
                                  grid.getName(), bad.load()));
 }
 
-/// Every value and the background times a power of two.
-void scale_values(FloatGrid& grid, double factor) {
-    if (factor == 1.0)
-        return;
-    const auto scale = static_cast<float>(factor);
-    grid.tree().root().setBackground(grid.background() * scale, /*updateChildNodes=*/false);
-    for (auto value = grid.beginValueAll(); value; ++value)
-        value.setValue(*value * scale);
-}
-
 LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std::filesystem::path& file) {
     const Frame& frame = stack.frame;
     const auto& transform = grid->transform();
@@ -148,6 +138,13 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     return stack;
 }
 
+bool has_inside(const FloatGrid& grid) {
+    for (auto value = grid.cbeginValueAll(); value; ++value)
+        if (*value < 0.0f)
+            return true;
+    return false;
+}
+
 GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
     auto chosen = std::find_if(grids.begin(), grids.end(),
                                [](const auto& g) { return g->getGridClass() == openvdb::GRID_LEVEL_SET; });
@@ -156,6 +153,10 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
             std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
     if (chosen == grids.end() || !((*chosen)->background() > 0.0f) || (*chosen)->activeVoxelCount() == 0)
         refuse(file, "holds no level set of floats: alcove needs signed distances, positive outside");
+    if (!has_inside(**chosen))
+        refuse(file, fmt::format("grid '{}' holds no negative distance: alcove needs signed ones, negative "
+                                 "inside, and finds the surface where they change sign",
+                                 (*chosen)->getName()));
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
     const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
     Box box;
@@ -169,6 +170,15 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     return stack;
 }
 
+}
+
+void scale_values(FloatGrid& grid, double factor) {
+    if (factor == 1.0)
+        return;
+    const auto scale = static_cast<float>(factor);
+    grid.tree().root().setBackground(grid.background() * scale, /*updateChildNodes=*/false);
+    for (auto value = grid.beginValueAll(); value; ++value)
+        value.setValue(*value * scale);
 }
 
 void write_grids(const GridStack& stack, const std::filesystem::path& file) {

@@ -44,6 +44,8 @@ struct GridStack {
     std::string creator; ///< the program that wrote the file these were read from, if it says so
     std::vector<std::string> warnings; ///< what the surface lost on its way into the grid, in words
 
+    /// Largest distance, unit space, that the last level holds.
+    float reach() const { return (levels.back().outer_band - 1.0f) * levels.back().voxel; }
     std::size_t bytes() const {
         std::size_t sum = 0;
         for (const LevelSet& level : levels)
@@ -51,6 +53,9 @@ struct GridStack {
         return sum;
     }
 };
+
+/// The same grids in the unit space of another frame.
+GridStack reframed(GridStack stack, const Frame& frame);
 
 /// The largest power of two that is not above the diagonal.
 double value_unit_of(const Frame& frame);

@@ -69,7 +69,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
                             std::ceil(1e4 * fitting) / 100.0));
         }
     } else {
-        const float wanted = std::clamp(reach / 8.0f, 1.0f / 1024.0f, 1.0f / 256.0f);
+        const float wanted = std::min(std::max(reach / 8.0f, 1.0f / 1024.0f), options.largest_voxel);
         plan.voxel = static_cast<float>(estimate.finest_that_fits(wanted, options.memory_limit));
     }
     plan.bytes = estimate.bytes(plan.voxel);

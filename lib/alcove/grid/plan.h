@@ -10,9 +10,11 @@ namespace alcove {
 struct GridOptions {
     /// Largest distance from the surface that is asked for, unit space, > 0; infinity is cut to the diagonal.
     float radius = 0.1f;
-    /// Edge of the finest voxel, unit space; 0 chooses 1/256, or radius/8 where that is finer, down to
-    /// 1/1024.
+    /// Edge of the finest voxel, unit space; 0 chooses `largest_voxel`, or radius/8 where that is finer, down
+    /// to 1/1024.
     float voxel = 0.0f;
+    /// What a chosen voxel is at most, unit space, > 0, unless memory asks for more.
+    float largest_voxel = 1.0f / 256.0f;
     /// Voxels outward from the surface on every level, at least 3: map() is right up to one less.
     float outer_band = 5.0f;
     /// Voxels inward on every level of a solid, at least 2. Occlusion never looks deeper.

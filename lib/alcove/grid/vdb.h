@@ -12,4 +12,7 @@ struct VdbGrid {
     openvdb::FloatGrid::Ptr grid;
 };
 
+/// Every value and the background times a power of two.
+void scale_values(openvdb::FloatGrid& grid, double factor);
+
 }

@@ -30,6 +30,7 @@ SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined) 
             continue;
         }
         sound.face_of.resize(sound.corners.size(), static_cast<std::uint32_t>(sound.count()));
+        sound.source.push_back(static_cast<std::uint32_t>(f));
         sound.begin.push_back(static_cast<std::uint32_t>(sound.corners.size()));
     }
     return sound;

@@ -10,6 +10,7 @@ struct SoundFaces {
     std::vector<std::uint32_t> begin{0}; ///< faces + 1 offsets into `corners`
     std::vector<std::uint32_t> corners;  ///< no corner equals the next, around the end too
     std::vector<std::uint32_t> face_of;  ///< one a corner
+    std::vector<std::uint32_t> source;   ///< one a face: which of the mesh it is
     std::size_t collapsed = 0;           ///< faces left out: fewer than three corners, all finite
 
     std::size_t count() const { return begin.size() - 1; }

@@ -31,10 +31,20 @@ std::vector<ParameterInfo> parameters_of() {
 }
 
 template <class E>
+constexpr bool traces_rays() {
+    if constexpr (requires { E::traces_rays; })
+        return E::traces_rays;
+    else
+        return false;
+}
+
+template <class E>
 E with_settings(const Settings& settings) {
     E estimator;
-    // In unit space nothing is further than the diagonal.
-    estimator.radius = std::min(settings.radius, 1.0f);
+    estimator.radius = settings.radius;
+    // A probe further from the mesh than its diagonal tells nothing of it.
+    if constexpr (!traces_rays<E>())
+        estimator.radius = std::min(estimator.radius, 1.0f);
     for (const auto& [name, value] : settings.parameters)
         for (const auto& p : E::parameters())
             if (p.name == name)

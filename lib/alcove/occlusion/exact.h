@@ -53,6 +53,7 @@ struct Exact {
         "the reference itself: no grid, no bias, any radius; gives bent normals";
     static constexpr std::string_view bad =
         "noise of 1/rays^0.75; needs the mesh, its rays are dear on dense ones";
+    static constexpr bool traces_rays = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 
     static constexpr auto parameters() {

@@ -25,7 +25,7 @@ struct Inverted {
 /// It starts half a voxel deep at most: what is thinner is told within that. Cost: 6 + 5–20 map() calls a
 /// surfel.
 struct Thickness {
-    float radius = 0.1f; ///< largest thickness, > 0
+    float radius = 0.1f; ///< largest thickness, > 0; may be infinite
 
     static constexpr std::string_view name = "thickness";
     static constexpr std::string_view summary = "one ray along the reversed normal to the far side";
@@ -34,6 +34,7 @@ struct Thickness {
     static constexpr std::string_view cost = "6 + 5-20";
     static constexpr std::string_view good = "within a voxel on plates and solids";
     static constexpr std::string_view bad = "of an open surface it is the way to whatever stands behind";
+    static constexpr bool traces_rays = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::thickness;
 
     static constexpr std::array<Parameter<Thickness>, 0> parameters() { return {}; }
@@ -48,7 +49,7 @@ struct Thickness {
         SurfelBatch::Values depths;
         clear_of_surface(inside, turned, clearance, std::max(0.5f * voxel, clearance), depths.data());
         TraceOptions options;
-        options.far = radius;
+        options.far = longest_ray(field, radius);
         options.hit_distance = 0.05f * clearance;
         options.shortest_step = clearance;
         options.two_sided = inside.two_sided();
@@ -57,7 +58,7 @@ struct Thickness {
             rays.push_back({turned.position(i), turned.normal(i)}, depths[i]);
         trace(inside, rays, options);
         for (std::size_t i = 0; i < surfels.count; ++i)
-            out[Channel::thickness][i] = std::min(rays.travelled[i], radius);
+            out[Channel::thickness][i] = std::min(rays.travelled[i], options.far);
     }
 };
 

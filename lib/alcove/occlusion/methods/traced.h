@@ -32,6 +32,14 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
     }
 }
 
+/// Where a ray that met nothing is done: a miss further out costs steps for nothing. Fields without an end show
+/// what is behind the horizon edge-on, less than 1/horizon of the hemisphere.
+template <Field F>
+float longest_ray(const F& field, float radius) {
+    constexpr float horizon = 100.0f;
+    return std::min({radius, 2.0f * extent(field), horizon});
+}
+
 /// Visibility along `rays` directions, low-discrepancy, rotated for each surfel by a hash of its position:
 ///
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
@@ -40,7 +48,7 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
 /// weighted by cos θ in both. Source: "04 Ambient Occlusion", lecture notes. Rays start where the field answers
 /// a tenth of a voxel, or 1e-4 for exact fields. Cost: 6 + rays × 5–20 map() calls a surfel.
 struct Traced {
-    float radius = 0.1f; ///< > 0; may be infinite, at a cost of up to 1,024 map() calls for an open ray
+    float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< a surfel, >= 1
     bool cosine_weighted = true;
     std::uint32_t seed = 0;
@@ -54,6 +62,7 @@ struct Traced {
         "tends to exact rays as rays and voxels do; needs no mesh; gives bent normals";
     static constexpr std::string_view bad =
         "the dearest on grids; noise of 1/rays^0.75; blunt within a voxel";
+    static constexpr bool traces_rays = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 
     static constexpr auto parameters() {
@@ -71,7 +80,7 @@ struct Traced {
         const float voxel = resolution(field);
         const float clearance = std::max(0.1f * voxel, 1e-4f);
         TraceOptions options;
-        options.far = radius;
+        options.far = longest_ray(field, radius);
         options.hit_distance = 0.05f * clearance;
         options.shortest_step = 2.5f * clearance;
         options.two_sided = two_sided(field);

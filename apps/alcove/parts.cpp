@@ -1,0 +1,82 @@
+#include "parts.h"
+
+#include "alcove/mesh/parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace alcove::cli {
+namespace {
+
+constexpr float largest_voxel_of_part = 1.0f / 32.0f;
+
+/// The request for the whole, in the unit space of a part.
+VoxelizeOptions options_of_part(const VoxelizeOptions& whole, float scale) {
+    VoxelizeOptions options = whole;
+    options.grid.radius *= scale;
+    options.grid.voxel = std::min(options.grid.voxel * scale, largest_voxel_of_part);
+    return options;
+}
+
+bool has_area(const std::vector<Triangle>& triangles, const Mesh& mesh) {
+    const std::vector<Vec3> normals = area_weighted_normals(mesh, triangles);
+    return std::any_of(normals.begin(), normals.end(), [](const Vec3& n) { return n != Vec3(0.0f); });
+}
+
+}
+
+PartsBake bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const Method& method,
+                     const Settings& settings, ChannelSet wanted, NormalSource normals,
+                     const Progress& progress) {
+    constexpr std::size_t most_warnings = 3;
+    PartsBake result;
+    for (const ChannelInfo& channel : channels)
+        if (wanted.has(channel.channel))
+            result.values[channel.channel].assign(input.mesh.vertex_count() * channel.components,
+                                                  channel.missing);
+    std::vector<char> baked(input.mesh.vertex_count(), 0);
+    const std::vector<MeshPart> parts = split_parts(input.mesh);
+    std::size_t finished = 0, warned = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+        const Mesh& mesh = parts[p].mesh;
+        const std::vector<std::uint32_t>& vertices = parts[p].vertices;
+        const Frame frame = frame_of(mesh.box());
+        const auto scale = static_cast<float>(input.frame.diagonal / frame.diagonal);
+        const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+        if (!has_area(triangles, mesh))
+            continue;
+        Stopwatch watch;
+        const GridStack stack = voxelize(mesh, triangles, options_of_part(input.options, scale));
+        const AnyField field = surroundings.around(LevelStack(stack), frame);
+        result.grid_seconds += watch.lap();
+        result.grid.include(facts_of(stack));
+        for (const std::string& warning : stack.warnings)
+            if (++warned <= most_warnings)
+                input.warnings.push_back(fmt::format("part {} of {}: {}", p + 1, parts.size(), warning));
+
+        Settings of_part = settings;
+        of_part.radius = input.radius * scale;
+        ChannelValues values = bake_channels(
+            make_surfels(mesh, triangles, frame, normals), field, method, of_part, wanted, [&](double done) {
+                progress((static_cast<double>(finished) + done * static_cast<double>(vertices.size())) /
+                         static_cast<double>(input.mesh.vertex_count()));
+            });
+        for (float& thickness : values[Channel::thickness])
+            thickness /= scale;
+        finished += vertices.size();
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            if (!std::exchange(baked[vertices[i]], 1))
+                for (const ChannelInfo& channel : channels)
+                    if (wanted.has(channel.channel))
+                        std::copy_n(values[channel.channel].data() + i * channel.components,
+                                    channel.components,
+                                    result.values[channel.channel].data() + vertices[i] * channel.components);
+    }
+    if (warned > most_warnings)
+        input.warnings.push_back(fmt::format("{} more warnings of parts", warned - most_warnings));
+    return result;
+}
+
+}

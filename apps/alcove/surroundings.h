@@ -1,0 +1,49 @@
+/// What occludes a mesh beside itself: other meshes, and the ground.
+#pragma once
+
+#include "voxelized.h"
+
+#include "alcove/field/any_field.h"
+#include "alcove/field/level_stack.h"
+
+#include <optional>
+
+namespace alcove::cli {
+
+struct SurroundingsRequest {
+    std::vector<std::string> occluders; ///< meshes, in the coordinates of the scene
+    bool ground = false;
+    Vec3d up{0.0, 1.0, 0.0}; ///< any length but 0
+};
+
+/// Adds --occluder, --ground and --up.
+void add_surroundings_options(CLI::App& verb, SurroundingsRequest& request);
+
+/// In scene space, so that any unit space can be made part of it.
+class Surroundings {
+  public:
+    /// Voxels are as large as those of the mesh, but from 1/512 to 1/32 of an occluder, as far as memory goes; what is too far away to occlude is left out. The ground is the plane through the lowest vertex. Warnings
+    /// go to `input`. \throw what reading and voxelizing throw.
+    Surroundings(const SurroundingsRequest& request, VoxelizedMesh& input);
+
+    /// A field of the unit space of `frame` with them.
+    AnyField around(AnyField field, const Frame& frame) const;
+    std::size_t bytes() const { return bytes_; } ///< of the grids
+
+  private:
+    struct Occluder {
+        LevelStack field;
+        Frame frame;
+    };
+    struct Ground {
+        Vec3d up; ///< unit length
+        double height;
+    };
+    void add_occluder(const std::string& file, VoxelizedMesh& input, double memory_limit);
+
+    std::vector<Occluder> occluders_;
+    std::optional<Ground> ground_;
+    std::size_t bytes_ = 0;
+};
+
+}

@@ -1,0 +1,21 @@
+/// From grids back to the surface: its mesh, and what a grid's band is too thin to hold.
+#pragma once
+
+#include "alcove/grid/grid_stack.h"
+#include "alcove/mesh/mesh.h"
+
+namespace alcove {
+
+/// The zero surface of the finest level in scene units, faces outward: quads, and where an `adaptivity` in
+/// [0, 1] above 0 merges flat neighbourhoods, triangles too. By OpenVDB's volumeToMesh, after T. Ju et al.,
+/// "Dual contouring of Hermite data" (2002). A band that ends at the surface leaves a hole there.
+/// \throw InputError if no distance changes its sign, or the stack is a sheet: the back of one is no zero
+/// surface. Cost: linear in the active voxels.
+Mesh mesh_zero_surface(const GridStack& stack, float adaptivity = 0.0f);
+
+/// Adds coarser levels, voxelized from the zero surface, until the last reaches `radius` (unit space; infinity
+/// is cut to the diagonal); gives back a stack that does as it is. \throw as mesh_zero_surface(), and
+/// LimitError as voxelize().
+GridStack extend_levels(GridStack stack, float radius);
+
+}
