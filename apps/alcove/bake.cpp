@@ -101,6 +101,7 @@ void run(const BakeOptions& options) {
     const ThreadLimit limit(options.common.threads);
     const Method& method = parse_method(options.method.method);
     const ChannelSet wanted = parse_attributes(options.attributes);
+    const Needs needs = needs_of(method, wanted);
     Settings settings = parse_settings(options.method, method, wanted);
     const NormalSource normals = parse_normals(options.normals);
     const ColorEncoding encoding = parse_encoding(options.color_encoding);
@@ -128,13 +129,14 @@ void run(const BakeOptions& options) {
     grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
         return channel.inside && wanted.has(channel.channel);
     });
-    VoxelizedMesh input = read_bake_input(options.source, grid_request, options.common, seconds);
+    VoxelizedMesh input = read_bake_input(
+        options.source, grid_request, needs.field || !options.write_grid.empty(), options.common, seconds);
     Mesh& mesh = input.mesh;
     Stopwatch watch;
-    const Surroundings surroundings(options.surroundings, input);
-    std::optional<AnyField> field; // of the whole mesh
+    const Surroundings surroundings(options.surroundings, needs, input);
+    std::optional<Occluders> whole;
     if (!options.source.self)
-        field = surroundings.around(LevelStack(input.stack), input.frame);
+        whole = surroundings.around(mesh, input.triangles, input.stack, input.frame);
     if (!options.write_grid.empty())
         write_grids(input.stack, options.write_grid);
     seconds["grid"] = seconds["grid"].get<double>() + watch.lap();
@@ -153,8 +155,8 @@ void run(const BakeOptions& options) {
     PartsBake baked;
     {
         ProgressMeter meter(options.common.progress_mode(), "baking");
-        if (field)
-            baked = {bake_channels(surfels, *field, method, settings, wanted, std::ref(meter)),
+        if (whole)
+            baked = {bake_channels(surfels, *whole, method, settings, wanted, std::ref(meter)),
                      facts_of(input.stack)};
         else
             baked = bake_parts(input, surroundings, method, settings, wanted, normals, std::ref(meter));
@@ -165,8 +167,9 @@ void run(const BakeOptions& options) {
 
     const double radius = double(input.radius) * input.frame.diagonal;
     WriteOptions writing;
-    writing.comments.push_back(fmt::format("alcove {}: {} by {}, radius {:.6g}, voxel {:.6g}", ALCOVE_VERSION,
-                                           names_of(wanted), method.name, radius, grid.voxel));
+    writing.comments.push_back(
+        fmt::format("alcove {}: {} by {}, radius {:.6g}, {}", ALCOVE_VERSION, names_of(wanted), method.name,
+                    radius, grid.levels > 0 ? fmt::format("voxel {:.6g}", grid.voxel) : grid.text()));
     const bool colored = wants_colors(options.color, wanted, mesh);
     if (!colored && to_obj)
         throw UsageError(options.output +
@@ -192,18 +195,17 @@ void run(const BakeOptions& options) {
                     {"attributes", names_of(wanted)},
                     {"method", method.name},
                     {"radius", radius},
-                    {"voxel", grid.voxel},
+                    {"voxel", grid.levels > 0 ? nlohmann::ordered_json(grid.voxel) : nullptr},
                     {"levels", grid.levels},
-                    {"sign", name_of(grid.sign)},
+                    {"sign", grid.levels > 0 ? nlohmann::ordered_json(name_of(grid.sign)) : nullptr},
                     {"grid_bytes", grid.bytes + surroundings.bytes()},
                     {"estimated_rmse", nullptr},
                     {"seconds", seconds},
                     {"peak_rss_bytes", peak_rss_bytes()},
                     {"warnings", input.warnings}});
     else if (!options.common.quiet)
-        fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, as a {} of {} level{} from voxel {:.4g}\n",
-                   options.output, names_of(wanted), grouped(mesh.vertex_count()), method.name, radius,
-                   name_of(grid.sign), grid.levels, grid.levels == 1 ? "" : "s", grid.voxel);
+        fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}\n", options.output, names_of(wanted),
+                   grouped(mesh.vertex_count()), method.name, radius, grid.text());
 }
 
 }

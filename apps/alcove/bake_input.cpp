@@ -105,15 +105,16 @@ void add_bake_input_options(CLI::App& verb, BakeInputRequest& request) {
         "Each connected part of the mesh is occluded by itself alone, and by --occluder and --ground");
 }
 
-VoxelizedMesh read_bake_input(const BakeInputRequest& request, const GridRequest& grid,
+VoxelizedMesh read_bake_input(const BakeInputRequest& request, const GridRequest& grid, bool needs_grid,
                               const CommonOptions& common, nlohmann::ordered_json& seconds) {
     check(request, grid);
-    if (request.self) {
+    const bool from_mesh = request.grid.empty() && extension(request.input) != ".vdb";
+    if (request.self || (from_mesh && !needs_grid)) {
         VoxelizedMesh input = read_to_voxelize(request.input, grid, seconds);
         seconds["grid"] = 0.0;
         return input;
     }
-    if (request.grid.empty() && extension(request.input) != ".vdb")
+    if (from_mesh)
         return read_and_voxelize(request.input, grid, common, seconds);
     return read_grid_input(request, parse_length(grid.radius, "--radius"), seconds);
 }

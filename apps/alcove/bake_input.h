@@ -14,10 +14,10 @@ struct BakeInputRequest {
 /// Adds --grid, --adaptivity and --self.
 void add_bake_input_options(CLI::App& verb, BakeInputRequest& request);
 
-/// Without a stack for parts, which each get their own. A grid that holds distances less far than the radius is
+/// Without a stack where no grid is needed, and for parts, which each get their own. A grid that holds distances less far than the radius is
 /// extended, with a warning. Puts `read` and `grid` into `seconds`. \throw UsageError for options that do not go
 /// together, and what reading, meshing and voxelizing throw.
-VoxelizedMesh read_bake_input(const BakeInputRequest& request, const GridRequest& grid,
+VoxelizedMesh read_bake_input(const BakeInputRequest& request, const GridRequest& grid, bool needs_grid,
                               const CommonOptions& common, nlohmann::ordered_json& seconds);
 
 }

@@ -77,6 +77,13 @@ Settings parse_settings(const MethodRequest& request, const Method& method, Chan
     return settings;
 }
 
+Needs needs_of(const Method& method, ChannelSet wanted) {
+    Needs needs;
+    for (const Method* needed : methods_for(method, wanted))
+        (needed->on_mesh ? needs.rays : needs.field) = true;
+    return needs;
+}
+
 std::string method_names() {
     std::string names;
     for (const Method& method : catalog())

@@ -27,6 +27,13 @@ const Method& parse_method(const std::string& name);
 /// for what the methods that give the wanted channels do not take.
 Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted);
 
+/// What the methods that give the wanted channels ask.
+struct Needs {
+    bool field = false; ///< a grid
+    bool rays = false;  ///< the triangles
+};
+Needs needs_of(const Method& method, ChannelSet wanted);
+
 /// The names of the methods, one after the other.
 std::string method_names();
 

@@ -31,6 +31,7 @@ PartsBake bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, con
                      const Settings& settings, ChannelSet wanted, NormalSource normals,
                      const Progress& progress) {
     constexpr std::size_t most_warnings = 3;
+    const Needs needs = needs_of(method, wanted);
     PartsBake result;
     for (const ChannelInfo& channel : channels)
         if (wanted.has(channel.channel))
@@ -48,8 +49,10 @@ PartsBake bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, con
         if (!has_area(triangles, mesh))
             continue;
         Stopwatch watch;
-        const GridStack stack = voxelize(mesh, triangles, options_of_part(input.options, scale));
-        const AnyField field = surroundings.around(LevelStack(stack), frame);
+        GridStack stack;
+        if (needs.field)
+            stack = voxelize(mesh, triangles, options_of_part(input.options, scale));
+        const Occluders occluders = surroundings.around(mesh, triangles, stack, frame);
         result.grid_seconds += watch.lap();
         result.grid.include(facts_of(stack));
         for (const std::string& warning : stack.warnings)
@@ -59,7 +62,8 @@ PartsBake bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, con
         Settings of_part = settings;
         of_part.radius = input.radius * scale;
         ChannelValues values = bake_channels(
-            make_surfels(mesh, triangles, frame, normals), field, method, of_part, wanted, [&](double done) {
+            make_surfels(mesh, triangles, frame, normals), occluders, method, of_part, wanted,
+            [&](double done) {
                 progress((static_cast<double>(finished) + done * static_cast<double>(vertices.size())) /
                          static_cast<double>(input.mesh.vertex_count()));
             });

@@ -30,6 +30,25 @@ Mesh nearby(const Mesh& mesh, const VoxelizedMesh& input) {
     return clip(mesh, triangulate(mesh).triangles, {box.min - margin, box.max + margin});
 }
 
+/// The grids of an occluder, their voxels those of the mesh as far as its own size allows.
+GridStack voxelize_occluder(const Mesh& mesh, std::span<const Triangle> triangles, const std::string& file,
+                            double memory, const VoxelizedMesh& input) {
+    const double scale = input.frame.diagonal / mesh.box().diagonal();
+    VoxelizeOptions options;
+    options.grid.radius = static_cast<float>(input.radius * scale);
+    options.grid.memory_limit = memory;
+    const float voxel =
+        input.stack.levels.empty() ? input.options.grid.voxel : input.stack.levels.front().voxel;
+    if (voxel > 0.0f)
+        options.grid.largest_voxel =
+            std::clamp(static_cast<float>(voxel * scale), smallest_voxel, largest_voxel);
+    try {
+        return voxelize(mesh, triangles, options);
+    } catch (const InputError& error) {
+        throw InputError(file + ": " + error.what());
+    }
+}
+
 }
 
 void add_surroundings_options(CLI::App& verb, SurroundingsRequest& request) {
@@ -44,7 +63,8 @@ void add_surroundings_options(CLI::App& verb, SurroundingsRequest& request) {
         ->default_str("0,1,0");
 }
 
-Surroundings::Surroundings(const SurroundingsRequest& request, VoxelizedMesh& input) {
+Surroundings::Surroundings(const SurroundingsRequest& request, Needs needs, VoxelizedMesh& input)
+    : needs_(needs) {
     if (request.ground) {
         const Vec3d up = glm::normalize(request.up);
         double lowest = std::numeric_limits<double>::infinity();
@@ -63,43 +83,73 @@ void Surroundings::add_occluder(const std::string& file, VoxelizedMesh& input, d
     const Mesh whole = read_mesh(file);
     for (const std::string& warning : whole.warnings)
         warn(warning);
-    const Mesh mesh = nearby(whole, input);
+    Mesh mesh = nearby(whole, input);
     if (mesh.face_count() == 0) {
         warn("is too far away to occlude anything within the radius");
         return;
     }
-    const Frame frame = frame_of(mesh.box());
-    const double scale = input.frame.diagonal / frame.diagonal;
-    VoxelizeOptions options;
-    options.grid.radius = static_cast<float>(input.radius * scale);
-    options.grid.memory_limit = memory_limit;
-    const float voxel =
-        input.stack.levels.empty() ? input.options.grid.voxel : input.stack.levels.front().voxel;
-    if (voxel > 0.0f)
-        options.grid.largest_voxel =
-            std::clamp(static_cast<float>(voxel * scale), smallest_voxel, largest_voxel);
-    try {
-        const GridStack stack = voxelize(mesh, triangulate(mesh).triangles, options);
+    Occluder occluder;
+    occluder.frame = frame_of(mesh.box());
+    occluder.triangles = triangulate(mesh).triangles;
+    occluder.mesh = std::move(mesh);
+    if (needs_.field) {
+        const GridStack stack =
+            voxelize_occluder(occluder.mesh, occluder.triangles, file, memory_limit, input);
         for (const std::string& warning : stack.warnings)
             warn(warning);
         bytes_ += stack.bytes();
-        occluders_.push_back({LevelStack(stack), frame});
-    } catch (const InputError& error) {
-        throw InputError(file + ": " + error.what());
+        occluder.field = LevelStack(stack);
     }
+    occluders_.push_back(std::move(occluder));
 }
 
-AnyField Surroundings::around(AnyField field, const Frame& frame) const {
+Occluders Surroundings::around(const Mesh& mesh, std::span<const Triangle> triangles, const GridStack& stack,
+                               const Frame& frame) const {
+    if (!needs_.rays)
+        return field_around(stack, frame);
+    if (!needs_.field)
+        return rays_around(mesh, triangles, frame);
+    return {field_around(stack, frame), rays_around(mesh, triangles, frame)};
+}
+
+AnyField Surroundings::field_around(const GridStack& stack, const Frame& frame) const {
+    AnyField field = LevelStack(stack);
     if (occluders_.empty() && !ground_)
         return field;
     std::vector<AnyField> all{std::move(field)};
     for (const Occluder& occluder : occluders_)
-        all.emplace_back(placed(occluder.field, occluder.frame, frame));
+        all.emplace_back(placed(*occluder.field, occluder.frame, frame));
     if (ground_)
-        all.emplace_back(Plane{
-            Vec3(ground_->up),
-            static_cast<float>((ground_->height - glm::dot(ground_->up, frame.center)) / frame.diagonal)});
+        all.emplace_back(Plane{Vec3(ground_->up), ground_->height_in(frame)});
     return UnionOf<AnyField>(std::move(all));
+}
+
+RaySurface Surroundings::rays_around(const Mesh& mesh, std::span<const Triangle> triangles,
+                                     const Frame& frame) const {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> all;
+    const auto add = [&](const std::vector<Vec3d>& scene, std::span<const Triangle> faces) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec3d& p : scene)
+            positions.push_back(frame.to_unit(p));
+        for (const Triangle& t : faces)
+            all.push_back({first + t[0], first + t[1], first + t[2]});
+    };
+    add(mesh.positions, triangles);
+    for (const Occluder& occluder : occluders_)
+        add(occluder.mesh.positions, occluder.triangles);
+    if (ground_) {
+        // As far as a field without an end is traced.
+        constexpr float horizon = 100.0f;
+        const Basis basis(Vec3(ground_->up));
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec2 corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
+            positions.push_back(ground_->height_in(frame) * basis.normal +
+                                horizon * (corner.x * basis.tangent + corner.y * basis.bitangent));
+        all.push_back({first, first + 1, first + 2});
+        all.push_back({first, first + 2, first + 3});
+    }
+    return RaySurface(positions, all);
 }
 
 }

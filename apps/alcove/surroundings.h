@@ -1,10 +1,11 @@
 /// What occludes a mesh beside itself: other meshes, and the ground.
 #pragma once
 
+#include "method_options.h"
 #include "voxelized.h"
 
-#include "alcove/field/any_field.h"
 #include "alcove/field/level_stack.h"
+#include "alcove/occlusion/occluders.h"
 
 #include <optional>
 
@@ -24,23 +25,33 @@ class Surroundings {
   public:
     /// Voxels are as large as those of the mesh, but from 1/512 to 1/32 of an occluder, as far as memory goes; what is too far away to occlude is left out. The ground is the plane through the lowest vertex. Warnings
     /// go to `input`. \throw what reading and voxelizing throw.
-    Surroundings(const SurroundingsRequest& request, VoxelizedMesh& input);
+    Surroundings(const SurroundingsRequest& request, Needs needs, VoxelizedMesh& input);
 
-    /// A field of the unit space of `frame` with them.
-    AnyField around(AnyField field, const Frame& frame) const;
+    /// The mesh and its grid among them, in the unit space of `frame`.
+    Occluders around(const Mesh& mesh, std::span<const Triangle> triangles, const GridStack& stack,
+                     const Frame& frame) const;
     std::size_t bytes() const { return bytes_; } ///< of the grids
 
   private:
     struct Occluder {
-        LevelStack field;
+        Mesh mesh;
+        std::vector<Triangle> triangles;
         Frame frame;
+        std::optional<LevelStack> field;
     };
     struct Ground {
         Vec3d up; ///< unit length
         double height;
+
+        float height_in(const Frame& frame) const {
+            return static_cast<float>((height - glm::dot(up, frame.center)) / frame.diagonal);
+        }
     };
+    AnyField field_around(const GridStack& stack, const Frame& frame) const;
+    RaySurface rays_around(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame) const;
     void add_occluder(const std::string& file, VoxelizedMesh& input, double memory_limit);
 
+    Needs needs_;
     std::vector<Occluder> occluders_;
     std::optional<Ground> ground_;
     std::size_t bytes_ = 0;

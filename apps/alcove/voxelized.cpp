@@ -50,7 +50,16 @@ void GridFacts::include(const GridFacts& other) {
         sign = Sign::sheet;
 }
 
+std::string GridFacts::text() const {
+    if (levels == 0)
+        return "on the mesh itself";
+    return fmt::format("as a {} of {} level{} from voxel {:.4g}", name_of(sign), levels,
+                       levels == 1 ? "" : "s", voxel);
+}
+
 GridFacts facts_of(const GridStack& stack) {
+    if (stack.levels.empty())
+        return {};
     return {stack.levels.front().voxel * stack.frame.diagonal, stack.levels.size(), stack.bytes(),
             stack.sign};
 }

@@ -30,7 +30,7 @@ struct VoxelizedMesh {
     std::vector<std::string> warnings; ///< of reading and voxelizing
 };
 
-/// What a bake says of its grids.
+/// What a bake says of its grids; no levels where it needed none.
 struct GridFacts {
     double voxel = 0.0; ///< finest, scene units
     std::size_t levels = 0, bytes = 0;
@@ -38,6 +38,8 @@ struct GridFacts {
 
     /// The larger of each; a sheet where any is.
     void include(const GridFacts& other);
+    /// For people.
+    std::string text() const;
 };
 GridFacts facts_of(const GridStack& stack);
 

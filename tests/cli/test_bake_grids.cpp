@@ -61,7 +61,7 @@ TEST_F(BakeGrids, AThinBandIsExtendedWithAWarning) {
 TEST_F(BakeGrids, ASavedGridGivesTheBytesOfTheBakeThatSavedIt) {
     for (const auto& [name, method] :
          {std::pair("elephant.off", "traced"), std::pair("fandisk.off", "classic")}) {
-        const std::vector<std::string> common{"bake", real_mesh(name), "--method", method, "--rays", "16"};
+        const std::vector<std::string> common{"bake", real_mesh(name), "--method", method};
         const auto with = [&](std::vector<std::string> more) {
             more.insert(more.begin(), common.begin(), common.end());
             return run(more);

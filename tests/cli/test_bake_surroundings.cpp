@@ -183,6 +183,22 @@ TEST_F(BakeSurroundings, PartsByThemselvesStillStandOnTheGround) {
         EXPECT_NEAR(baked.ao[v], 0.5 * (1.0 + normals[v].y), 0.02) << v;
 }
 
+TEST_F(BakeSurroundings, RaysOnTheMeshSeeWhatRaysThroughTheFieldSee) {
+    write_part("box.ply", box_mesh(Vec3d(0.3), 1), 1.0, {0.6, 0.0, 0.1});
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--occluder", "box.ply"}, {"--ground"}, {"--self", "--ground"}}) {
+        std::vector<std::string> arguments{real_mesh("elephant.off"), "--radius", "inf", "--rays", "256"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Baked traced = bake(arguments);
+        arguments.insert(arguments.end(), {"--method", "exact"});
+        const Baked exact = bake(arguments);
+        double squares = 0.0;
+        for (std::size_t v = 0; v < exact.ao.size(); ++v)
+            squares += std::pow(double(traced.ao[v]) - exact.ao[v], 2);
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(exact.ao.size())), 0.02) << more.front();
+    }
+}
+
 TEST_F(BakeSurroundings, GivesTheSameBytesWithAnyNumberOfThreads) {
     write_part("sphere.ply", sphere_mesh(3), 1.0, {1, 1, 1});
     Mesh pair = sphere_mesh(3);
