@@ -80,7 +80,7 @@ Settings parse_settings(const MethodRequest& request, const Method& method, Chan
 Needs needs_of(const Method& method, ChannelSet wanted) {
     Needs needs;
     for (const Method* needed : methods_for(method, wanted))
-        (needed->on_mesh ? needs.rays : needs.field) = true;
+        needs = {needs.field || needed->asks_field, needs.rays || needed->asks_rays};
     return needs;
 }
 

@@ -142,7 +142,7 @@ void run(const Options& options) {
     RenderOptions rendering;
     if (options.method.method != "none") {
         rendering.method = &parse_method(options.method.method);
-        if (rendering.method->on_mesh)
+        if (rendering.method->asks_rays)
             throw UsageError("render draws a field: --method " + options.method.method +
                              " traces the mesh itself; use traced");
         rendering.settings = parse_settings(options.method, *rendering.method, Channel::ao);

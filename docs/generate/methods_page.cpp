@@ -182,7 +182,7 @@ void write_page(const std::filesystem::path& meshes, const std::filesystem::path
         std::vector<Image> tiles;
         std::string cells;
         for (Scene* scene : scenes) {
-            if (method.on_mesh && scene == &document) {
+            if (method.asks_rays && scene == &document) {
                 tiles.emplace_back(tile.width, tile.height);
                 cells += " no mesh |";
                 continue;

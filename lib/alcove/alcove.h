@@ -48,6 +48,7 @@
 #include "alcove/occlusion/document_hash.h"
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/exact.h"
+#include "alcove/occlusion/guided.h"
 #include "alcove/occlusion/hemisphere_frame.h"
 #include "alcove/occlusion/occluders.h"
 #include "alcove/occlusion/parameter.h"

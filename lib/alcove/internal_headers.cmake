@@ -14,4 +14,5 @@ set(alcove_internal_headers
     mesh/ply_parse.h
     mesh/text_scanner.h
     mesh/weld.h
+    occlusion/neighbourhood.h
     render/camera_rays.h)

@@ -1,6 +1,7 @@
 #include "alcove/occlusion/bake.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace alcove {
 namespace {
@@ -37,8 +38,14 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
             const auto code = [](double x) { return spread(static_cast<std::uint64_t>(x)); };
             keys.push_back({code(cell.x) << 2 | code(cell.y) << 1 | code(cell.z), i});
         }
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return a.code != b.code ? a.code < b.code : a.index < b.index;
+    // Within a cell, by what the surfels are: their order in the list may not matter.
+    const auto tuple = [&](const Key& key) {
+        const Surfel& s = surfels[key.index];
+        return std::tuple(s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
+                          key.index);
+    };
+    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+        return a.code != b.code ? a.code < b.code : tuple(a) < tuple(b);
     });
     std::vector<std::uint32_t> order(keys.size());
     std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& k) { return k.index; });

@@ -1,6 +1,7 @@
 #include "alcove/occlusion/catalog.h"
 
 #include "alcove/errors.h"
+#include "alcove/occlusion/guided.h"
 #include "alcove/occlusion/methods/classic.h"
 #include "alcove/occlusion/methods/decay.h"
 #include "alcove/occlusion/methods/exponential.h"
@@ -62,7 +63,7 @@ constexpr float document_radius_of() {
 
 template <class E>
 constexpr Method method() {
-    constexpr bool on_mesh = Estimator<E, RaySurface>;
+    constexpr bool on_mesh = Estimator<E, RaySurface>, on_both = std::same_as<E, Guided>;
     return {E::name,
             E::summary,
             E::formula,
@@ -71,12 +72,16 @@ constexpr Method method() {
             E::good,
             E::bad,
             channels_of<E>(),
-            on_mesh,
+            !on_mesh,
+            on_mesh || on_both,
             document_radius_of<E>(),
             parameters_of<E>,
             [](std::span<const Surfel> surfels, const Occluders& occluders, const Settings& settings,
                ChannelSet wanted, const Progress& progress) {
-                if constexpr (on_mesh)
+                if constexpr (on_both)
+                    return bake_channels(surfels, occluders.field(), occluders.rays(),
+                                         with_settings<E>(settings), wanted, progress);
+                else if constexpr (on_mesh)
                     return bake_channels(surfels, occluders.rays(), with_settings<E>(settings), wanted,
                                          progress);
                 else
@@ -88,7 +93,8 @@ constexpr Method method() {
 constexpr std::array methods{
     method<Classic>(),    method<Exponential>(), method<Decay>(),      method<Multiplicative>(),
     method<Multiscale>(), method<Jittered>(),    method<Hemisphere>(), method<HemisphereRandom>(),
-    method<Fibonacci>(),  method<Traced>(),      method<Exact>(),      method<Thickness>(),
+    method<Fibonacci>(),  method<Traced>(),      method<Guided>(),     method<Exact>(),
+    method<Thickness>(),
 };
 
 }

@@ -36,7 +36,8 @@ struct Method {
     std::string_view cost; ///< in map() calls a surfel
     std::string_view good, bad;
     ChannelSet gives;
-    bool on_mesh;          ///< whether it asks the triangles and not the field
+    bool asks_field;       ///< whether it probes the field
+    bool asks_rays;        ///< whether it traces the triangles
     float document_radius; ///< that the constants of the formula stand for; 0 where it has none
     std::vector<ParameterInfo> (*parameters)();
     /// Settings of parameters the method has not are passed over.

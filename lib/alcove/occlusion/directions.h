@@ -75,6 +75,16 @@ inline Vec2 fibonacci_point(int i, int n, float shift_u, float shift_v) {
             std::min(static_cast<float>(v - std::floor(v)), below_one)};
 }
 
+/// Point i of an additive recurrence on the unit square: any run of consecutive points is low-discrepancy.
+/// M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018).
+inline Vec2 recurrence_point(std::uint64_t i, std::uint32_t seed) {
+    // 1/ρ and 1/ρ² with ρ³ = ρ + 1, as fractions of 2^64: products wrap as they should.
+    const std::uint64_t u = i * 0xc13fa9a902a6328fu, v = i * 0x91e10da5c79e7b1du;
+    const std::uint32_t h = hash(seed);
+    return {unit_interval(static_cast<std::uint32_t>(u >> 32) + h),
+            unit_interval(static_cast<std::uint32_t>(v >> 32) + hash(h))};
+}
+
 /// The lattice of `fibonacci_point` sent through `cosine_hemisphere`, with its angles evaluated once for any
 /// number of shifts: the shift in v is a rotation.
 class CosineLattice {
@@ -91,8 +101,10 @@ class CosineLattice {
     struct Shift {
         float u, cosine, sine;
 
-        explicit Shift(std::uint32_t random) : u(unit_interval(random)) {
-            const float phi = 2.0f * std::numbers::pi_v<float> * unit_interval(hash(random));
+        explicit Shift(std::uint32_t random)
+            : Shift(Vec2(unit_interval(random), unit_interval(hash(random)))) {}
+        explicit Shift(const Vec2& shift) : u(shift.x) {
+            const float phi = 2.0f * std::numbers::pi_v<float> * shift.y;
             cosine = std::cos(phi), sine = std::sin(phi);
         }
     };

@@ -77,7 +77,6 @@ void RaySurface::find_occluded(RayBatch& rays, float far) const {
 }
 
 void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, const Outputs& out) const {
-    constexpr float offset = 1e-4f; // of the diagonal, as the reference is defined
     const CosineLattice lattice(rays);
     std::array<int, SurfelBatch::capacity> open{};
     std::array<Vec3, SurfelBatch::capacity> mean{};

@@ -43,6 +43,9 @@ struct Exact {
     int rays = 64;       ///< a surfel, >= 1; the error is about 0.016 at 64 and 0.003 at 1,024
     std::uint32_t seed = 0;
 
+    /// Where rays start above the surface, of the diagonal, as the reference is defined.
+    static constexpr float offset = 1e-4f;
+
     static constexpr std::string_view name = "exact";
     static constexpr std::string_view summary = "cosine-weighted rays on the mesh itself: the reference";
     static constexpr std::string_view formula = "1/N sum V(w_i)";
