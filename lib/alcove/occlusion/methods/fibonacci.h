@@ -14,7 +14,7 @@ namespace alcove {
 ///
 /// for a radius of 0.11; ω_i = (cos φ sin θ, sin φ sin θ, z), φ = 2π fract(i/1.618…), z = cos θ = 1 − (2 i + 1)/n,
 /// flipped to the normal's side. Source: "SDF Ambient Occlusion — Detailed Reference" (2026). The directions are
-/// the same at every surfel, in world axes or around its normal; 0.62–0.72 on an open plane. Cost: `samples`
+/// the same at every surfel, in world axes or around its normal; 0.62–0.73 on an open plane. Cost: `samples`
 /// map() calls a surfel.
 struct Fibonacci {
     float radius = 0.1f;       ///< furthest probe there could be, > 0
@@ -30,7 +30,7 @@ struct Fibonacci {
     static constexpr std::string_view cost = "samples (32)";
     static constexpr std::string_view good = "sees what stands aside; even directions";
     static constexpr std::string_view bad =
-        "0.62-0.72 on an open plane: dark all over; patterns turn with the world's axes";
+        "0.62-0.73 on an open plane: dark all over; patterns turn with the world's axes";
     static constexpr float document_radius = 0.11f;
 
     static constexpr auto parameters() {

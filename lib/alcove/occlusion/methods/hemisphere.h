@@ -15,7 +15,7 @@ namespace alcove {
 /// for a radius of 1; ω_i = normalize(n + (1 − 1/n) v_i), v_i = (cos s, sin s, t)/√(1 + t²) flipped to the
 /// normal's side, s = 2π hash(l_i + 1), t = 2 hash(l_i + 2) − 1. Fewer samples lean more toward the normal.
 /// Source: "Hemispherical Signed Distance Field Ambient Occlusion" (after A. Evans 2006, I. Quilez 2008, J. Hart
-/// 1996). The directions are the same at every surfel, in world axes or around its normal; about 0.91–0.94 on an
+/// 1996). The directions are the same at every surfel, in world axes or around its normal; 0.90–0.95 on an
 /// open plane. Cost: `samples` map() calls a surfel.
 struct Hemisphere {
     float radius = 0.1f;       ///< furthest probe there could be, > 0
@@ -32,7 +32,7 @@ struct Hemisphere {
     static constexpr std::string_view cost = "samples (32)";
     static constexpr std::string_view good = "sees what stands aside; little self-occlusion";
     static constexpr std::string_view bad =
-        "about 0.91-0.94 on an open plane; pale; patterns turn with the world's axes";
+        "0.90-0.95 on an open plane; pale; patterns turn with the world's axes";
     static constexpr float document_radius = 1.0f;
 
     static constexpr auto parameters() {
