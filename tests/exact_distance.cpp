@@ -100,7 +100,8 @@ double ExactSurface::winding_number(const Vec3& p) const {
     return angle / (4.0 * std::numbers::pi);
 }
 
-double ExactSurface::visibility(const Surfel& surfel, float radius, int rays) const {
+template <class Open>
+void ExactSurface::cast(const Surfel& surfel, float radius, int rays, Open open) const {
     // A frame of its own, from whatever axis the normal is furthest from.
     const Vec3 n = surfel.normal;
     const Vec3 other = std::fabs(n.x) < 0.6f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
@@ -108,7 +109,6 @@ double ExactSurface::visibility(const Surfel& surfel, float radius, int rays) co
     const Vec3 origin = surfel.position + 1e-4f * n;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    int open = 0;
     for (int i = 0; i < rays; ++i) {
         // Hammersley points: i/N and the bit-reversed i.
         std::uint32_t bits = static_cast<std::uint32_t>(i), reversed = 0;
@@ -125,9 +125,22 @@ double ExactSurface::visibility(const Surfel& surfel, float radius, int rays) co
         ray.tfar = radius;
         ray.mask = 0xffffffffu;
         rtcOccluded1(scene_, &context, &ray);
-        open += ray.tfar >= 0.0f;
+        if (ray.tfar >= 0.0f)
+            open(d);
     }
+}
+
+double ExactSurface::visibility(const Surfel& surfel, float radius, int rays) const {
+    int open = 0;
+    cast(surfel, radius, rays, [&](const Vec3&) { ++open; });
     return static_cast<double>(open) / rays;
+}
+
+Vec3d ExactSurface::bent_normal(const Surfel& surfel, float radius, int rays) const {
+    Vec3d sum(0.0);
+    cast(surfel, radius, rays, [&](const Vec3& direction) { sum += direction; });
+    const double length = glm::length(sum);
+    return length > 0.0 ? sum / length : sum;
 }
 
 Vec3 ExactSurface::point(std::size_t triangle, float u, float v) const {

@@ -27,11 +27,17 @@ class ExactSurface {
     /// The reference occlusion: visibility of `rays` cosine-weighted directions within `radius`, two-sided.
     double visibility(const Surfel& surfel, float radius, int rays) const;
 
+    /// The mean of those directions that are open, unit length; zero where none is.
+    Vec3d bent_normal(const Surfel& surfel, float radius, int rays) const;
+
     /// A point of the surface: of the given triangle, at barycentric coordinates from u, v in [0, 1).
     Vec3 point(std::size_t triangle, float u, float v) const;
     std::size_t size() const { return triangles_.size(); }
 
   private:
+    /// Calls open(direction) for each of the rays that meets nothing.
+    template <class Open>
+    void cast(const Surfel& surfel, float radius, int rays, Open open) const;
     static bool query(RTCPointQueryFunctionArguments* arguments);
 
     std::vector<Vec3d> positions_;

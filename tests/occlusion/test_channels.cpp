@@ -1,0 +1,200 @@
+/// What channels cost, and that asking for more of them changes none.
+#include "alcove/errors.h"
+#include "alcove/field/combine.h"
+#include "alcove/field/primitives.h"
+#include "alcove/occlusion/catalog.h"
+#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/methods/decay.h"
+#include "alcove/occlusion/methods/exponential.h"
+#include "alcove/occlusion/methods/fibonacci.h"
+#include "alcove/occlusion/methods/hemisphere.h"
+#include "alcove/occlusion/methods/hemisphere_random.h"
+#include "alcove/occlusion/methods/jittered.h"
+#include "alcove/occlusion/methods/multiplicative.h"
+#include "alcove/occlusion/methods/multiscale.h"
+#include "alcove/occlusion/methods/traced.h"
+#include "documents_scene.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+namespace alcove {
+namespace {
+
+/// A field that knows how often it was asked.
+template <Field F>
+struct Counted {
+    F field;
+    std::shared_ptr<std::atomic<std::size_t>> calls = std::make_shared<std::atomic<std::size_t>>(0);
+
+    float map(const Vec3& p) const {
+        ++*calls;
+        return field.map(p);
+    }
+    void map(const Points& points, float reach, float* distances) const {
+        *calls += points.count;
+        map_batch(field, points, reach, distances);
+    }
+};
+
+/// What a bake asks of the field, in map() calls.
+template <class E>
+std::size_t calls(const E& estimator, ChannelSet wanted) {
+    const test::DocumentsScene scene;
+    const Counted field{scene.field};
+    bake_channels(scene.surfels(1000), field, estimator, wanted);
+    return *field.calls;
+}
+
+TEST(Channels, ComeOutOfOnePass) {
+    const Classic classic{.radius = 0.13f};
+    EXPECT_EQ(calls(classic, Channel::ao), 5000u);
+    EXPECT_LE(calls(classic, Channel::ao | Channel::convexity), 10000u);
+    const Traced traced{.radius = 0.5f, .rays = 16};
+    EXPECT_EQ(calls(traced, Channel::ao | Channel::bent_normal), calls(traced, Channel::ao));
+}
+
+/// A field, and a triangle in the ground for what asks triangles.
+Occluders with_ground(AnyField field) {
+    const std::vector<Vec3> corners{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}};
+    return {std::move(field), RaySurface(corners, std::vector<Triangle>{{0, 1, 2}})};
+}
+
+const ChannelSet everything = [] {
+    ChannelSet set;
+    for (const ChannelInfo& channel : channels)
+        set = set | channel.channel;
+    return set;
+}();
+
+TEST(Channels, OfAllKindsLeaveTheAoAsItIs) {
+    const test::DocumentsScene scene;
+    const std::vector<Surfel> surfels = scene.surfels(200);
+    const Occluders occluders = with_ground(scene.field);
+    for (const Method& method : catalog()) {
+        if (!method.gives.has(Channel::ao))
+            continue;
+        const ChannelSet halves = Channel::ao_short | Channel::ao_long;
+        const ChannelSet all = everything.without(halves.without(method.gives));
+        const ChannelValues one = bake_channels(surfels, occluders, method, {.radius = 0.5f}, Channel::ao);
+        const ChannelValues many = bake_channels(surfels, occluders, method, {.radius = 0.5f}, all);
+        EXPECT_EQ(one[Channel::ao], many[Channel::ao]) << method.name;
+        for (const ChannelInfo& channel : channels) {
+            EXPECT_EQ(one[channel.channel].size(), channel.channel == Channel::ao ? 200u : 0u);
+            EXPECT_EQ(many[channel.channel].size(),
+                      all.has(channel.channel) ? 200u * channel.components : 0u);
+        }
+    }
+}
+
+TEST(Channels, AreGivenByTheChosenMethodElseByTheFirst) {
+    const Method &classic = find_method("classic"), &traced = find_method("traced"),
+                 &decay = find_method("decay"), &multiscale = find_method("multiscale");
+    const auto names = [](const Method& chosen, ChannelSet wanted) {
+        std::vector<std::string_view> found;
+        for (const Method* method : methods_for(chosen, wanted))
+            found.push_back(method->name);
+        return found;
+    };
+    using Names = std::vector<std::string_view>;
+    EXPECT_EQ(names(classic, Channel::ao | Channel::convexity), Names{"classic"});
+    EXPECT_EQ(names(traced, Channel::ao | Channel::bent_normal), Names{"traced"});
+    EXPECT_EQ(names(decay, Channel::ao | Channel::convexity | Channel::bent_normal),
+              (Names{"decay", "classic", "traced"}));
+    EXPECT_EQ(names(decay, Channel::thickness), Names{"thickness"});
+    EXPECT_EQ(names(multiscale, Channel::ao | Channel::ao_short | Channel::ao_long), Names{"multiscale"});
+    EXPECT_TRUE(names(classic, {}).empty());
+    for (const Channel half : {Channel::ao_short, Channel::ao_long})
+        try {
+            methods_for(classic, half);
+            FAIL();
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("multiscale"), std::string::npos);
+        }
+}
+
+void expect_wrong(const std::string& method, const std::string& name, double value, const std::string& part) {
+    const std::vector<const Method*> methods{&find_method(method)};
+    try {
+        check_settings(methods, {.parameters = {{name, value}}});
+        FAIL() << method << " took " << name << " = " << value;
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
+TEST(Settings, AreCheckedByNameAndRange) {
+    expect_wrong("classic", "rays", 5, "samples, strength, falloff");
+    expect_wrong("classic", "radius", 0.1, "no parameter 'radius'");
+    expect_wrong("classic", "samples", 1, "from 2 to");
+    expect_wrong("classic", "samples", 2.5, "whole number");
+    expect_wrong("classic", "strength", -1, "from 0 to 100");
+    expect_wrong("classic", "strength", std::nan(""), "from 0 to 100");
+    expect_wrong("classic", "strength", INFINITY, "from 0 to 100");
+    expect_wrong("traced", "cosine_weighted", 0.5, "whole number");
+    expect_wrong("traced", "seed", 4294967296.0, "seed of traced");
+    // Where several methods are at work a parameter may be that of any.
+    const std::vector<const Method*> two{&find_method("decay"), &find_method("traced")};
+    EXPECT_NO_THROW(check_settings(two, {.parameters = {{"rays", 5}, {"linear", 1}}}));
+    EXPECT_THROW(check_settings(two, {.parameters = {{"strength", 1}}}), InputError);
+    EXPECT_THROW(bake_channels({}, with_ground(Plane{}), find_method("classic"),
+                               {.parameters = {{"rays", 5}}}, Channel::ao),
+                 InputError);
+}
+
+TEST(Settings, EveryParameterStartsInRangeAndIsSetByItsName) {
+    const test::DocumentsScene scene;
+    const std::vector<Surfel> surfels = scene.surfels(300);
+    const Occluders occluders = with_ground(scene.field);
+    for (const Method& method : catalog()) {
+        const auto baked = [&](std::vector<std::pair<std::string, double>> parameters) {
+            const Settings settings{.radius = 0.5f, .parameters = std::move(parameters)};
+            check_settings(std::vector{&method}, settings);
+            return method.bake(surfels, occluders, settings, method.gives, {});
+        };
+        const ChannelValues standard = baked({});
+        for (const ParameterInfo& p : method.parameters()) {
+            SCOPED_TRACE(fmt::format("{} of {}", p.name, method.name));
+            EXPECT_FALSE(p.name.empty() || p.summary.empty());
+            EXPECT_LE(p.min, p.standard);
+            EXPECT_GE(p.max, p.standard);
+            const std::string name(p.name);
+            EXPECT_EQ(baked({{name, p.standard}}).values, standard.values);
+            // Counts up to what is quick.
+            const double most = p.integer && name != "seed" ? std::min(p.max, 64.0) : p.max;
+            bool matters = false;
+            for (const double value : {p.min, most}) {
+                const ChannelValues values = baked({{name, value}});
+                matters |= values.values != standard.values;
+                for (const ChannelInfo& channel : channels)
+                    for (const float found : values[channel.channel])
+                        EXPECT_TRUE(found >= (channel.components == 3 ? -1.0f : 0.0f) && found <= 1.0f)
+                            << found;
+            }
+            EXPECT_TRUE(matters || p.name == "falloff");
+        }
+    }
+}
+
+template <class... E>
+void expect_round_trip() {
+    const auto of = [](auto standard) {
+        for (const auto& p : decltype(standard)::parameters())
+            for (const double value : {p.min, p.max, p.get(standard)}) {
+                auto estimator = standard;
+                p.set(estimator, value);
+                EXPECT_EQ(p.get(estimator), p.integer ? value : double(float(value))) << p.name;
+            }
+    };
+    (of(E{}), ...);
+}
+
+TEST(Settings, WhatIsSetIsGot) {
+    expect_round_trip<Classic, Exponential, Decay, Multiplicative, Multiscale, Jittered, Hemisphere,
+                      HemisphereRandom, Fibonacci, Traced>();
+}
+
+}
+}
