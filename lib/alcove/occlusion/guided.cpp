@@ -10,12 +10,30 @@ namespace {
 
 constexpr std::size_t grain = 1024;
 
-/// What the mean of one surfel's own rays may vary by: that of one ray, less by their number as measured for
-/// shifted lattices. Doubled, because the residuals it is held against vary themselves; and never that of a
-/// certain answer, because the answer is a fit.
-float noise_variance(float open, int rays) {
+/// The value of a fit at the surfel itself, and the mean square of what it leaves.
+struct Regression {
+    float value, residual2;
+};
+
+/// The length of the mean of cosine-weighted directions where all are open: ∫ cos²θ dω / π.
+constexpr float straight = 2.0f / 3.0f;
+
+/// Twice the variance of the mean of one surfel's own rays, by their number as measured for shifted lattices.
+/// Twice, because the residuals it is held against vary themselves; and never that of a certain answer,
+/// because `open` is a fit.
+float noise_of_ao(float open, int rays) {
     const float p = std::clamp(open, 0.05f, 0.95f);
     return 2.0f * p * (1.0f - p) * std::pow(static_cast<float>(rays), -1.4f);
+}
+
+/// The same of the mean open direction.
+float noise_of_direction(int rays) {
+    return std::pow(static_cast<float>(rays), -1.8f);
+}
+
+/// How much a surfel's own rays count beside the fit: none where their noise explains what the fit leaves.
+float trust_in_own(float residual2, float noise2) {
+    return residual2 > noise2 ? 1.0f - noise2 / residual2 : 0.0f;
 }
 
 /// The surfels along the Morton curve with their probes and rays; those alike stand there once.
@@ -88,6 +106,10 @@ class Shared {
             }
         }
         flush();
+        // Open surroundings bend nothing: what is shared is the deviation from that.
+        for (std::size_t i = begin; i < end; ++i)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                columns_[bent + axis][i] -= straight * columns_[ao][i] * columns_[normal + axis][i];
     }
 
     /// The fitted ao and sum of open directions of one surfel.
@@ -101,27 +123,30 @@ class Shared {
         std::array<float, Curve::window> weights;
         weigh(curve(), i, first, reach(i, rays), weights.data());
         const float origin = columns_[guide][i];
-        const auto regress = [&](std::size_t column, float& residual2) {
+        const auto regress = [&](std::size_t column) {
             const float* values = columns_[column].data() + first;
             const Moments m = moments(weights.data(), columns_[guide].data() + first, origin, values);
             const float g = m.g / m.w, v = m.v / m.w;
             // The guides of a flat neighbourhood say nothing: what they vary by rounding is no slope.
             const float variance = m.gg / m.w - g * g + 1e-4f, covariance = m.vg / m.w - g * v;
             const float slope = covariance / variance;
-            residual2 = std::max(m.vv / m.w - v * v - slope * covariance, 0.0f);
-            return v - slope * g;
+            return Regression{v - slope * g, std::max(m.vv / m.w - v * v - slope * covariance, 0.0f)};
         };
-        float residual2 = 0.0f;
-        const float fitted = std::clamp(regress(ao, residual2), 0.0f, 1.0f);
-        const float noise2 = noise_variance(fitted, rays);
-        const float own = residual2 > noise2 ? 1.0f - noise2 / residual2 : 0.0f;
-        const auto blend = [&](float a, std::size_t column) { return a + own * (columns_[column][i] - a); };
-        Fit fit{std::clamp(blend(fitted, ao), 0.0f, 1.0f), Vec3(0.0f)};
-        if (with_bent)
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                float unused;
-                fit.bent[static_cast<int>(axis)] = blend(regress(bent + axis, unused), bent + axis);
-            }
+        const auto blend = [&](std::size_t column, float fitted, float own) {
+            return fitted + own * (columns_[column][i] - fitted);
+        };
+        const Regression open = regress(ao);
+        const float fitted = std::clamp(open.value, 0.0f, 1.0f);
+        const float own = trust_in_own(open.residual2, noise_of_ao(fitted, rays));
+        Fit fit{std::clamp(blend(ao, fitted, own), 0.0f, 1.0f), Vec3(0.0f)};
+        if (with_bent) {
+            const Regression x = regress(bent), y = regress(bent + 1), z = regress(bent + 2);
+            const float own_bent =
+                trust_in_own(x.residual2 + y.residual2 + z.residual2, noise_of_direction(rays));
+            fit.bent = Vec3(blend(bent, x.value, own_bent), blend(bent + 1, y.value, own_bent),
+                            blend(bent + 2, z.value, own_bent)) +
+                       straight * fit.ao * surfels_[i].normal;
+        }
         return fit;
     }
 
@@ -145,7 +170,6 @@ class Shared {
         for (std::size_t k = 0; k < Curve::probes; ++k)
             curve.probe[k] = columns_[first_probe + k].data();
         curve.guide = columns_[guide].data();
-        curve.count = columns_[ao].size();
         return curve;
     }
 

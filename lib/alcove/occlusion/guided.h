@@ -21,11 +21,13 @@ namespace alcove {
 ///     noise of the rays explains of it: what the fit cannot tell, the surfel's own rays do. W. James, C. Stein
 ///     (1961). As rays grow, σ goes to 0 and the weights reach less far: it tends to Exact.
 ///
+/// Bent normals likewise, by their deviation from the normal.
+///
 /// Surfels alike in position and normal have the same values. Cost: 8 map() calls and `rays` rays a surfel,
 /// and 0.2 µs to share them.
 struct Guided {
     float radius = 0.1f; ///< > 0; probes go to min(radius, 1), rays may be infinite
-    int rays = 4;        ///< a surfel, >= 1
+    int rays = 3;        ///< a surfel, >= 1
     std::uint32_t seed = 0;
 
     static constexpr std::string_view name = "guided";
@@ -33,7 +35,7 @@ struct Guided {
         "few rays on the mesh, shared between neighbours by a regression on the field's probes";
     static constexpr std::string_view formula = "a + max(0, 1 - sigma^2/s^2) (1/N sum V(w_i) - a), a fitted";
     static constexpr std::string_view source = "after Buades et al. (2005), Cleveland (1979)";
-    static constexpr std::string_view cost = "8, and rays (4) on the mesh";
+    static constexpr std::string_view cost = "8, and rays (3) on the mesh";
     static constexpr std::string_view good = "the error of ten times as many rays on dense meshes";
     static constexpr std::string_view bad = "smooths on coarse ones; needs the mesh and a grid";
     static constexpr bool traces_rays = true; ///< the radius may be infinite

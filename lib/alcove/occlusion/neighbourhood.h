@@ -6,7 +6,7 @@
 
 namespace alcove {
 
-/// Surfels along a curve, as arrays of `count` values, at least `window` of them.
+/// Surfels along a curve, as arrays of at least `window` values.
 struct Curve {
     static constexpr std::size_t window = 192; ///< neighbours on the curve that share their rays
     static constexpr std::size_t probes = 8;
@@ -15,7 +15,6 @@ struct Curve {
     const float *nx, *ny, *nz;              ///< unit, or zero for one without a say
     std::array<const float*, probes> probe; ///< in [−1, 1]
     const float* guide;                     ///< their mean
-    std::size_t count;
 };
 
 /// Weights of the `window` surfels from `first` on, as neighbours of surfel `center`: products of
