@@ -9,7 +9,8 @@ endif()
 set(longest_source 400)
 set(longest_median_header 120)
 
-file(GLOB folders RELATIVE ${TREE} ${TREE}/lib ${TREE}/apps ${TREE}/tests ${TREE}/bench ${TREE}/examples)
+file(GLOB folders RELATIVE ${TREE} ${TREE}/lib ${TREE}/apps ${TREE}/tests ${TREE}/bench ${TREE}/examples
+     ${TREE}/fit)
 execute_process(COMMAND grep -rc --include=*.h --include=*.cpp "" ${folders}
                 WORKING_DIRECTORY ${TREE} OUTPUT_VARIABLE counts RESULT_VARIABLE status)
 if(NOT status EQUAL 0)

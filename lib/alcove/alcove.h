@@ -50,9 +50,11 @@
 #include "alcove/occlusion/exact.h"
 #include "alcove/occlusion/guided.h"
 #include "alcove/occlusion/hemisphere_frame.h"
+#include "alcove/occlusion/network.h"
 #include "alcove/occlusion/occluders.h"
 #include "alcove/occlusion/parameter.h"
 
+#include "alcove/occlusion/methods/calibrated_inputs.h"
 #include "alcove/occlusion/methods/classic.h"
 #include "alcove/occlusion/methods/decay.h"
 #include "alcove/occlusion/methods/exponential.h"
