@@ -54,7 +54,9 @@
 #include "alcove/occlusion/occluders.h"
 #include "alcove/occlusion/parameter.h"
 
+#include "alcove/occlusion/methods/calibrated.h"
 #include "alcove/occlusion/methods/calibrated_inputs.h"
+#include "alcove/occlusion/methods/calibrated_table.h"
 #include "alcove/occlusion/methods/classic.h"
 #include "alcove/occlusion/methods/decay.h"
 #include "alcove/occlusion/methods/exponential.h"

@@ -2,6 +2,7 @@
 
 #include "alcove/errors.h"
 #include "alcove/occlusion/guided.h"
+#include "alcove/occlusion/methods/calibrated.h"
 #include "alcove/occlusion/methods/classic.h"
 #include "alcove/occlusion/methods/decay.h"
 #include "alcove/occlusion/methods/exponential.h"
@@ -93,8 +94,8 @@ constexpr Method method() {
 constexpr std::array methods{
     method<Classic>(),    method<Exponential>(), method<Decay>(),      method<Multiplicative>(),
     method<Multiscale>(), method<Jittered>(),    method<Hemisphere>(), method<HemisphereRandom>(),
-    method<Fibonacci>(),  method<Traced>(),      method<Guided>(),     method<Exact>(),
-    method<Thickness>(),
+    method<Fibonacci>(),  method<Traced>(),      method<Calibrated>(), method<Guided>(),
+    method<Exact>(),      method<Thickness>(),
 };
 
 }
