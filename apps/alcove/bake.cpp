@@ -101,8 +101,8 @@ void run(const BakeOptions& options) {
     const ThreadLimit limit(options.common.threads);
     const Method& method = parse_method(options.method.method);
     const ChannelSet wanted = parse_attributes(options.attributes);
-    const Needs needs = needs_of(method, wanted);
     Settings settings = parse_settings(options.method, method, wanted);
+    const Needs needs = needs_of(method, wanted);
     const NormalSource normals = parse_normals(options.normals);
     const ColorEncoding encoding = parse_encoding(options.color_encoding);
     const bool to_obj = extension(options.output) == ".obj";
