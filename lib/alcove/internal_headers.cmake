@@ -3,8 +3,15 @@
 set(alcove_internal_headers
     atomic_file.h
     grid/band.h
-    grid/surface.h
+    grid/level_set.h
+    grid/nearest.h
+    grid/pieces.h
+    grid/pseudonormals.h
+    grid/radix_sort.h
+    grid/solidity.h
+    grid/triangle_tree.h
     grid/vdb.h
+    grid/winding.h
     mesh/byte_reader.h
     mesh/edge_table.h
     mesh/file_bytes.h

@@ -1,12 +1,13 @@
-/// A narrow band being built: for every voxel near the surface its nearest triangle and signed distance.
-/// Internal to grid/: includes OpenVDB.
+/// The narrow band around a surface, brick after brick. Internal to grid/.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
-#include "alcove/grid/surface.h"
-#include "alcove/grid/vdb.h"
+#include "alcove/grid/nearest.h"
+#include "alcove/grid/pseudonormals.h"
+#include "alcove/grid/winding.h"
 
-#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace alcove {
 
@@ -19,41 +20,44 @@ struct BandWidth {
     float inner = 0.0f; ///< voxels; the same as outer for sheets
 };
 
-/// Grown outward from voxels next to the surface, a layer a round: a voxel's nearest triangle is looked for
-/// among those of its 26 neighbours and evaluated exactly. What a round reads is never what it writes, so the
-/// result does not depend on the number of threads.
-class Band {
-  public:
-    /// `nearest` holds the index of a near triangle at its active voxels, at least all those within half a
-    /// voxel of the surface. A voxel of this band is `stride` of the surface's units wide.
-    Band(const Surface& surface, int stride, openvdb::Int32Tree::Ptr nearest, BandWidth width);
-
-    /// Grows the band further.
-    void widen(BandWidth width) { grow(width); }
-
-    /// The band of twice the voxel: seeded from this one, then grown to the same width in its own voxels.
-    Band coarser(BandWidth width) const;
-
-    /// The level set of this band: values times `value_scale`, inside filled for solids.
-    openvdb::FloatGrid::Ptr level_set(Sign sign, BandWidth width, double value_scale) const;
-
-  private:
-    void evaluate(const openvdb::MaskTree& targets, BandWidth width, openvdb::MaskTree& accepted);
-    void grow(BandWidth width);
-    /// Whether the voxel behind a face is a corner of a cell that the face passes through.
-    bool crossed(const openvdb::tree::ValueAccessor<const openvdb::FloatTree>& distance,
-                 const openvdb::Coord& behind) const;
-
-    const Surface* surface_;
-    int stride_;
-    openvdb::Int32Tree::Ptr nearest_;
-    openvdb::FloatTree::Ptr distance_; // in voxels; the topology of nearest_
+/// A brick that the band may touch and what may be nearest to its voxels.
+struct BandBlock {
+    Index3 low; ///< a multiple of brick_size
+    std::vector<Nodes> nodes;
 };
 
-/// The share of sign changes between neighbouring voxels that no surface lies between, for a surface between
-/// two voxels is no further than a voxel from both together: 0 for a solid, large where the surface is open,
-/// nested, inside out or overlaps itself. Reads every active voxel and its neighbours, filled inside
-/// included.
-double contradictions(const openvdb::FloatGrid& solid);
+/// Signed distances in voxels, z fastest; ±the width where a voxel is not of the band.
+struct BandBrick {
+    float values[brick_volume];
+    std::uint64_t active[brick_size]; ///< a word an x-slice, a bit a voxel of the band
+    std::size_t count = 0;            ///< voxels of the band
+};
+
+/// Distances are exact and no brick depends on another, so all of them can be made at once and levels of any
+/// stride from the same tree.
+class Band {
+  public:
+    /// A solid: negative where the winding number is 1 or more.
+    Band(const TriangleTree& tree, const WindingColumns& columns, BandWidth width)
+        : tree_(&tree), columns_(&columns), width_(width) {}
+    /// A sheet: distances up to the width on both sides, negative behind a face up to sheet_thickness.
+    Band(const TriangleTree& tree, const Pseudonormals& normals, float width)
+        : tree_(&tree), normals_(&normals), width_{width, width} {}
+
+    BandWidth width() const { return width_; }
+    Sign sign() const { return columns_ ? Sign::solid : Sign::sheet; }
+
+    /// The bricks of a level whose voxels are `stride` apart in the tree's units, in an order of their own.
+    std::vector<BandBlock> blocks(int stride) const;
+
+    /// Thread-safe.
+    BandBrick brick(const BandBlock& block, int stride) const;
+
+  private:
+    const TriangleTree* tree_;
+    const WindingColumns* columns_ = nullptr;
+    const Pseudonormals* normals_ = nullptr;
+    BandWidth width_;
+};
 
 }

@@ -1,45 +1,18 @@
 #include "alcove/grid/voxelize.h"
 
 #include "alcove/errors.h"
-#include "alcove/grid/band.h"
-#include "alcove/mesh/diagnose.h"
-
-#include <openvdb/tools/MeshToVolume.h>
+#include "alcove/grid/level_set.h"
+#include "alcove/grid/solidity.h"
+#include "alcove/mesh/weld.h"
+#include "alcove/parallel.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 namespace alcove {
 namespace {
-
-// Above this share of sign changes away from the surface, a solid is none. Sound scans and parts have none at
-// all, closed meshes that overlap themselves somewhere 0.02 to 0.2 %, those made of overlapping parts 0.5 %
-// and more.
-constexpr double tolerated_contradictions = 2.5e-3;
-
-struct TrianglesForOpenVdb {
-    const Surface& surface;
-
-    std::size_t polygonCount() const { return surface.size(); }
-    std::size_t pointCount() const { return 3 * surface.size(); }
-    std::size_t vertexCount(std::size_t) const { return 3; }
-    void getIndexSpacePoint(std::size_t triangle, std::size_t corner, openvdb::Vec3d& p) const {
-        const Vec3d& v = surface.vertex(triangle, static_cast<int>(corner));
-        p = {v.x, v.y, v.z};
-    }
-};
-
-/// The voxels next to the surface, each with a triangle near it.
-openvdb::Int32Tree::Ptr rasterize(const Surface& surface) {
-    using namespace openvdb::tools;
-    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
-    openvdb::Int32Grid nearest;
-    meshToVolume<openvdb::FloatGrid>(
-        TrianglesForOpenVdb{surface}, *transform, 1.0f, 1.0f,
-        UNSIGNED_DISTANCE_FIELD | DISABLE_INTERSECTING_VOXEL_REMOVAL | DISABLE_RENORMALIZATION, &nearest);
-    return nearest.treePtr();
-}
 
 void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
     if (surface.flipped_edges > 0)
@@ -54,27 +27,6 @@ void warn_of_orientation(const Closedness& surface, std::vector<std::string>& wa
                         surface.inverted_components, surface.components));
 }
 
-Sign choose_sign(SignChoice choice, const Closedness& surface, const Band& finest, const BandWidth& width,
-                 std::vector<std::string>& warnings) {
-    if (choice == SignChoice::sheet)
-        return Sign::sheet;
-    if (choice == SignChoice::automatic) {
-        // The wall of a cavity counts as inverted too: as a sheet it is as right.
-        if (!surface.closed() || surface.inverted_components > 0)
-            return Sign::sheet;
-    }
-    const double wrong = contradictions(*finest.level_set(Sign::solid, width, 1.0));
-    if (wrong <= tolerated_contradictions)
-        return Sign::solid;
-    if (choice == SignChoice::automatic)
-        return Sign::sheet;
-    warnings.push_back(
-        fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the sign changes are not "
-                    "at its surface: use --sign auto",
-                    100.0 * wrong));
-    return Sign::solid;
-}
-
 /// Index (0, 0, 0) of all levels: below and left of every band, so that a tree has one root node and not
 /// eight, each of a quarter of a megabyte.
 Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
@@ -82,19 +34,14 @@ Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
     return frame.to_unit(box.min) - margin;
 }
 
-LevelSet finish(const Band& band, const LevelPlan& plan, const GridStack& stack, const Vec3& origin,
-                int level) {
-    LevelSet set;
-    set.origin = origin;
-    set.voxel = std::ldexp(plan.voxel, level);
-    set.outer_band = plan.outer_band;
-    const float inner = stack.sign == Sign::solid ? plan.inner_band : sheet_thickness;
-    const double value_scale = double(set.voxel) * stack.frame.diagonal / stack.value_unit;
-    const auto grid = band.level_set(stack.sign, {plan.outer_band, inner}, value_scale);
-    set.active_voxels = grid->activeVoxelCount();
-    set.bytes = grid->memUsage();
-    set.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
-    return set;
+/// Index space: voxels of the finest level.
+std::vector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Vec3d& origin, double voxel) {
+    std::vector<Vec3d> positions(mesh.positions.size());
+    parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+            positions[v] = ((mesh.positions[v] - frame.center) / frame.diagonal - origin) / voxel;
+    });
+    return positions;
 }
 
 }
@@ -105,8 +52,9 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.frame = frame_of(mesh.box());
     stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(mesh.box(), stack.frame, plan);
-    const Surface surface(mesh, triangles, stack.frame, Vec3d(origin), plan.voxel);
-    if (surface.size() == 0)
+    const std::vector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
+    const GroupedPieces pieces = grouped_pieces(positions, triangles);
+    if (pieces.pieces.empty())
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
 
     if (plan.voxel > 0.25f * options.grid.radius)
@@ -122,20 +70,23 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     const Closedness shape = closedness(mesh);
     warn_of_orientation(shape, stack.warnings);
     done(0.1);
-    openvdb::initialize();
-    const bool sheet = options.sign == SignChoice::sheet;
-    const BandWidth both{plan.outer_band, plan.outer_band};
-    const BandWidth solid{plan.outer_band, plan.inner_band};
-    const auto seeds = rasterize(surface);
+    const TriangleTree tree(pieces);
+    const WindingColumns columns(positions, triangles);
+    std::vector<std::uint32_t> joined = weld(mesh.positions);
+    stack.sign = choose_sign(options.sign, shape, columns, triangles, joined, stack.warnings);
+    std::optional<Pseudonormals> normals;
+    if (stack.sign == Sign::sheet)
+        normals.emplace(positions, triangles, std::move(joined));
+    const Band band = normals ? Band(tree, *normals, plan.outer_band)
+                              : Band(tree, columns, {plan.outer_band, plan.inner_band});
     done(0.3);
-    Band band(surface, 1, seeds, sheet ? both : solid);
-    stack.sign = choose_sign(options.sign, shape, band, solid, stack.warnings);
-    if (stack.sign == Sign::sheet && !sheet)
-        band.widen(both);
     for (int level = 0; level < plan.levels; ++level) {
-        if (level > 0)
-            band = band.coarser(stack.sign == Sign::sheet ? both : solid);
-        stack.levels.push_back(finish(band, plan, stack, origin, level));
+        const float voxel = std::ldexp(plan.voxel, level);
+        LevelSet set = level_set(band, 1 << level, double(voxel) * stack.frame.diagonal / stack.value_unit);
+        set.origin = origin;
+        set.voxel = voxel;
+        set.outer_band = plan.outer_band;
+        stack.levels.push_back(std::move(set));
         done(1.0 - 0.2 * std::ldexp(1.0, -2 * level));
     }
     done(1.0);

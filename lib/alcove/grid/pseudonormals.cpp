@@ -1,6 +1,5 @@
-#include "alcove/grid/surface.h"
+#include "alcove/grid/pseudonormals.h"
 
-#include "alcove/mesh/weld.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -19,49 +18,33 @@ float corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
 
 }
 
-Surface::Surface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
-                 const Vec3d& origin, double voxel) {
-    positions_.resize(mesh.positions.size());
-    parallel_for(positions_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v)
-            positions_[v] = ((mesh.positions[v] - frame.center) / frame.diagonal - origin) / voxel;
-    });
-    triangles_.reserve(triangles.size());
-    face_normals_.reserve(triangles.size());
-    for (const Triangle& t : triangles) {
-        const Vec3d cross =
-            glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
-        if (const double length = glm::length(cross); length > 0.0) {
-            triangles_.push_back(t);
-            face_normals_.emplace_back(cross / length);
+Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
+                             std::vector<std::uint32_t> joined)
+    : positions_(positions), triangles_(triangles), joined_(std::move(joined)),
+      face_normals_(triangles.size(), Vec3(0.0f)) {
+    parallel_for(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Triangle& t = triangles_[i];
+            const Vec3d cross =
+                glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
+            if (const double length = glm::length(cross); length > 0.0)
+                face_normals_[i] = Vec3(cross / length);
         }
-    }
-    joined_ = weld(mesh.positions);
+    });
     weight_normals();
-    collect_rings();
 }
 
-void Surface::collect_rings() {
-    ring_begin_.assign(positions_.size() + 1, 0);
-    for (const Triangle& t : triangles_)
-        for (const std::uint32_t v : t)
-            ++ring_begin_[joined_[v] + 1];
-    std::partial_sum(ring_begin_.begin(), ring_begin_.end(), ring_begin_.begin());
-    ring_.resize(3 * triangles_.size());
-    std::vector<std::uint32_t> next(ring_begin_.begin(), ring_begin_.end() - 1);
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-        for (const std::uint32_t v : triangles_[t])
-            ring_[next[joined_[v]]++] = t;
-}
-
-void Surface::weight_normals() {
+void Pseudonormals::weight_normals() {
     vertex_normals_.assign(positions_.size(), Vec3(0.0f));
     struct HalfEdge {
         std::uint64_t key;
         std::uint32_t slot;
     };
-    std::vector<HalfEdge> half_edges(triangles_.size() * 3);
-    for (std::size_t t = 0; t < triangles_.size(); ++t)
+    std::vector<HalfEdge> half_edges;
+    half_edges.reserve(triangles_.size() * 3);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        if (face_normals_[t] == Vec3(0.0f))
+            continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
             const Triangle& tri = triangles_[t];
             const std::uint32_t at = tri[k], next = tri[(k + 1) % 3], last = tri[(k + 2) % 3];
@@ -69,13 +52,14 @@ void Surface::weight_normals() {
                 corner_angle(positions_[at], positions_[next], positions_[last]) * face_normals_[t];
             const auto [low, high] = std::minmax(joined_[at], joined_[next]);
             const auto slot = static_cast<std::uint32_t>(3 * t + k);
-            half_edges[slot] = {(std::uint64_t{low} << 32) | high, slot};
+            half_edges.push_back({(std::uint64_t{low} << 32) | high, slot});
         }
+    }
     std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
         return a.key != b.key ? a.key < b.key : a.slot < b.slot;
     });
 
-    edge_normals_.resize(half_edges.size());
+    edge_normals_.assign(3 * triangles_.size(), Vec3(0.0f));
     std::vector<std::uint32_t> rim;
     for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
         Vec3 sum(0.0f);
@@ -93,8 +77,9 @@ void Surface::weight_normals() {
         vertex_normals_[v] = Vec3(0.0f);
 }
 
-Surface::Nearest Surface::nearest(std::size_t triangle, const Vec3d& p) const {
-    const Vec3d &a = vertex(triangle, 0), &b = vertex(triangle, 1), &c = vertex(triangle, 2);
+Pseudonormals::Nearest Pseudonormals::nearest(std::size_t triangle, const Vec3d& p) const {
+    const Triangle& t = triangles_[triangle];
+    const Vec3d &a = positions_[t[0]], &b = positions_[t[1]], &c = positions_[t[2]];
     const Vec3d ab = b - a, ac = c - a, ap = p - a;
     const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
     if (d1 <= 0.0 && d2 <= 0.0)
@@ -120,43 +105,13 @@ Surface::Nearest Surface::nearest(std::size_t triangle, const Vec3d& p) const {
     return {ap - vb * scale * ab - vc * scale * ac, face_feature};
 }
 
-std::size_t Surface::descend(std::size_t triangle, const Vec3d& p) const {
-    double best2 = distance2(triangle, p);
-    for (;;) {
-        int corner = 0;
-        double corner2 = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < 3; ++k) {
-            const Vec3d way = p - vertex(triangle, k);
-            if (const double d2 = glm::dot(way, way); d2 < corner2) {
-                corner2 = d2;
-                corner = k;
-            }
-        }
-        const std::uint32_t centre = joined_[triangles_[triangle][static_cast<std::size_t>(corner)]];
-        std::size_t nearest = triangle;
-        for (std::uint32_t i = ring_begin_[centre]; i < ring_begin_[centre + 1]; ++i)
-            if (const double d2 = distance2(ring_[i], p); d2 < best2) {
-                best2 = d2;
-                nearest = ring_[i];
-            }
-        if (nearest == triangle)
-            return triangle;
-        triangle = nearest;
-    }
-}
-
-double Surface::distance2(std::size_t triangle, const Vec3d& p) const {
-    const Vec3d offset = nearest(triangle, p).offset;
-    return glm::dot(offset, offset);
-}
-
-ClosestPoint Surface::closest(std::size_t triangle, const Vec3d& p) const {
+double Pseudonormals::side(std::size_t triangle, const Vec3d& p) const {
     const auto [offset, feature] = nearest(triangle, p);
     const auto corner = static_cast<std::size_t>(feature) % 3;
     const Vec3 normal = feature == face_feature ? face_normals_[triangle]
                         : feature < 3           ? vertex_normals_[joined_[triangles_[triangle][corner]]]
                                                 : edge_normals_[3 * triangle + corner];
-    return {glm::dot(offset, offset), glm::dot(offset, Vec3d(normal))};
+    return glm::dot(offset, Vec3d(normal));
 }
 
 }

@@ -1,0 +1,97 @@
+/// From an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: voxelize() beside
+/// openvdb::tools::meshToVolume with its default flags, on a scan of 26,002 vertices and its subdivisions of
+/// 104,002 and 416,002. Compare CPU times, and with two threads real times.
+///
+///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/read.h"
+#include "alcove/parallel.h"
+#include "subdivided.h"
+
+#include <benchmark/benchmark.h>
+#include <openvdb/tools/MeshToVolume.h>
+
+#include <vector>
+
+namespace {
+
+using namespace alcove;
+
+constexpr float band = 5.0f;
+
+struct Scan {
+    explicit Scan(Mesh shape) : mesh(std::move(shape)), triangles(triangulate(mesh).triangles) {}
+
+    Mesh mesh;
+    std::vector<Triangle> triangles;
+};
+
+const Scan& scan(std::int64_t level) {
+    static const std::vector<Scan> scans = [] {
+        std::vector<Scan> made;
+        made.emplace_back(read_mesh(ALCOVE_REAL_MESHES "/armadillo.off"));
+        for (int i = 0; i < 2; ++i)
+            made.emplace_back(subdivided(made.back().mesh));
+        return made;
+    }();
+    return scans[static_cast<std::size_t>(level)];
+}
+
+VoxelizeOptions options(const benchmark::State& state) {
+    VoxelizeOptions result;
+    result.grid.voxel = 1.0f / static_cast<float>(state.range(1));
+    result.grid.outer_band = result.grid.inner_band = band;
+    result.grid.radius = (band - 1.0f) * result.grid.voxel; // one level
+    return result;
+}
+
+void ours(benchmark::State& state) {
+    const Scan& s = scan(state.range(0));
+    const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, options(state)));
+}
+
+/// All levels of a radius of half the diagonal.
+void ours_far(benchmark::State& state) {
+    const Scan& s = scan(state.range(0));
+    const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
+    VoxelizeOptions far = options(state);
+    far.grid.radius = 0.5f;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, far));
+}
+
+struct IndexedScan {
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3I> triangles;
+};
+
+void mesh_to_volume(benchmark::State& state) {
+    const Scan& s = scan(state.range(0));
+    const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
+    IndexedScan indexed;
+    for (const Vec3d& p : s.mesh.positions)
+        indexed.points.emplace_back(p.x, p.y, p.z);
+    for (const Triangle& t : s.triangles)
+        indexed.triangles.emplace_back(t[0], t[1], t[2]);
+    const double voxel = s.mesh.box().diagonal() / static_cast<double>(state.range(1));
+    const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
+            *transform, indexed.points, indexed.triangles, band));
+}
+
+void all_sizes(benchmark::internal::Benchmark* bench) {
+    bench->ArgNames({"level", "voxels", "threads"})
+        ->ArgsProduct({{0, 1, 2}, {128, 256}, {1, 2}})
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime();
+}
+BENCHMARK(ours)->Apply(all_sizes);
+BENCHMARK(ours_far)->Apply(all_sizes);
+BENCHMARK(mesh_to_volume)->Apply(all_sizes);
+
+}
+
+BENCHMARK_MAIN();

@@ -1,0 +1,91 @@
+#include "alcove/grid/level_set.h"
+
+#include "alcove/grid/vdb.h"
+#include "alcove/parallel.h"
+
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace alcove {
+namespace {
+
+using openvdb::Coord;
+using openvdb::FloatTree;
+using Leaf = FloatTree::LeafNodeType;
+static_assert(Leaf::DIM == brick_size && Leaf::NodeMaskType::WORD_COUNT == brick_size);
+
+/// Whether the voxel behind a face is a corner of a cell that the face passes through.
+bool crossed(const openvdb::tree::ValueAccessor<const FloatTree>& values, const Coord& behind,
+             float thickness) {
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z) {
+                float other;
+                if (values.probeValue(behind.offsetBy(x, y, z), other) && other >= 0.0f && other < thickness)
+                    return true;
+            }
+    return false;
+}
+
+/// Leaves negative only what is a corner of a crossed cell.
+void open_sheet(FloatTree& tree, float thickness) {
+    std::vector<Leaf*> leaves;
+    tree.getNodes(leaves);
+    std::vector<std::vector<openvdb::Index>> turned(leaves.size());
+    parallel_for(leaves.size(), 16, [&](std::size_t begin, std::size_t end) {
+        const openvdb::tree::ValueAccessor<const FloatTree> values(tree);
+        for (std::size_t l = begin; l < end; ++l)
+            for (auto voxel = leaves[l]->cbeginValueOn(); voxel; ++voxel)
+                if (*voxel < 0.0f && !crossed(values, voxel.getCoord(), thickness))
+                    turned[l].push_back(voxel.pos());
+    });
+    for (std::size_t l = 0; l < leaves.size(); ++l)
+        for (const openvdb::Index voxel : turned[l])
+            leaves[l]->setValueOnly(voxel, -leaves[l]->getValue(voxel));
+}
+
+}
+
+LevelSet level_set(const Band& band, int stride, double value_scale) {
+    const auto scaled = [&](float voxels) { return static_cast<float>(voxels * value_scale); };
+    const float outside = scaled(band.width().outer), inside = scaled(-band.width().inner);
+    const std::vector<BandBlock> blocks = band.blocks(stride);
+    std::vector<std::unique_ptr<Leaf>> leaves(blocks.size());
+    std::vector<std::size_t> counts(blocks.size());
+    parallel_for(blocks.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t b = begin; b < end; ++b) {
+            const BandBrick brick = band.brick(blocks[b], stride);
+            counts[b] = brick.count;
+            if (brick.count == 0)
+                continue;
+            const Index3& low = blocks[b].low;
+            auto leaf = std::make_unique<Leaf>(Coord(low.x, low.y, low.z), outside);
+            std::transform(brick.values, brick.values + brick_volume, leaf->buffer().data(), scaled);
+            auto mask = leaf->getValueMask();
+            for (openvdb::Index x = 0; x < brick_size; ++x)
+                mask.getWord<openvdb::Index64>(x) = brick.active[x];
+            leaf->setValueMask(mask);
+            leaves[b] = std::move(leaf);
+        }
+    });
+
+    auto tree = std::make_shared<FloatTree>(outside);
+    for (auto& leaf : leaves)
+        if (leaf)
+            tree->addLeaf(leaf.release());
+    if (band.sign() == Sign::solid)
+        openvdb::tools::signedFloodFillWithValues(*tree, outside, inside, true, 1, 1);
+    else
+        open_sheet(*tree, scaled(sheet_thickness));
+    auto grid = openvdb::FloatGrid::create(tree);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    LevelSet set;
+    set.active_voxels = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    set.bytes = grid->memUsage();
+    set.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
+    return set;
+}
+
+}

@@ -1,0 +1,24 @@
+/// Decides whether a surface is a solid. Internal to grid/.
+#pragma once
+
+#include "alcove/grid/grid_stack.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/grid/winding.h"
+#include "alcove/mesh/diagnose.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+/// A closed surface is a solid, also where its parts run into each other: inside of any of them is inside.
+/// Not so when a whole part would vanish in the inside of another: shells in shells, and parts inside out,
+/// stay a sheet. The wall of a cavity, turned inward, bounds the solid and is kept.
+///
+/// \param joined for each vertex the one that stands for its place (mesh/weld.h)
+Sign choose_sign(SignChoice choice, const Closedness& shape, const WindingColumns& columns,
+                 std::span<const Triangle> triangles, std::span<const std::uint32_t> joined,
+                 std::vector<std::string>& warnings);
+
+}
