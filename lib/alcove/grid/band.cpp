@@ -15,14 +15,14 @@ void descend(const TriangleTree& tree, const BandBlock& from, Block block, int s
         out.push_back(from);
         return;
     }
-    BandBlock part;
+    std::array<Candidates, 8> parts;
+    split(tree, from.nearest, block, reach, parts);
     block.size /= 2;
-    for (int i = 0; i < 8; ++i) {
-        part.low = from.low + block.size * Index3(i >> 2, i >> 1 & 1, i & 1);
-        refine(tree, from.nodes, {part.low, block.size, block.stride}, reach, part.nodes);
-        if (!part.nodes.empty())
-            descend(tree, part, block, smallest, reach, out);
-    }
+    for (int i = 0; i < 8; ++i)
+        if (auto& part = parts[static_cast<std::size_t>(i)]; !part.nodes.empty()) {
+            block.low = from.low + block.size * Index3(i >> 2, i >> 1 & 1, i & 1);
+            descend(tree, {block.low, std::move(part)}, block, smallest, reach, out);
+        }
 }
 
 /// Of a block around all of the band.
@@ -44,7 +44,11 @@ std::vector<BandBlock> Band::blocks(int stride) const {
     const float reach = width_.outer * static_cast<float>(stride);
     const int size = size_around(*tree_, stride, reach), task = std::min(size, 8 * brick_size);
     std::vector<BandBlock> tasks;
-    descend(*tree_, {Index3(0), {{tree_->root(), 0xff}}}, {Index3(0), size, stride}, task, reach, tasks);
+    Candidates whole;
+    for (std::uint32_t i = 0; i < BoundsGroup::size; ++i)
+        whole.nodes.push_back(BoundsGroup::size * tree_->root() + i);
+    whole.nearest = whole.nodes.front();
+    descend(*tree_, {Index3(0), std::move(whole)}, {Index3(0), size, stride}, task, reach, tasks);
     std::vector<std::vector<BandBlock>> found(tasks.size());
     parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
@@ -63,7 +67,7 @@ BandBrick Band::brick(const BandBlock& block, int stride) const {
     if (columns_)
         inside = columns_->inside(at);
     NearestTriangles nearest;
-    nearest_triangles(*tree_, block.nodes, at, {inside.data(), width_.outer * units, width_.inner * units},
+    nearest_triangles(*tree_, block.nearest, at, {inside.data(), width_.outer * units, width_.inner * units},
                       nearest);
 
     BandBrick brick;

@@ -8,8 +8,8 @@
 
 #include "alcove/grid/triangle_tree.h"
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace alcove {
@@ -21,10 +21,10 @@ struct Block {
     int stride;
 };
 
-/// Some of the nodes of a group of bounds, a bit each.
-struct Nodes {
-    std::uint32_t group;
-    std::uint32_t bits;
+/// What can be nearest somewhere in a block.
+struct Candidates {
+    std::vector<std::uint32_t> nodes; ///< slots of TriangleTree::bounds: eight times the group, plus the slot
+    std::uint32_t nearest = 0;        ///< of these or above, the one to look at first
 };
 
 inline constexpr int brick_size = 8;
@@ -36,10 +36,11 @@ struct NearestTriangles {
     std::uint32_t triangle[brick_volume]; ///< where the distance is finite
 };
 
-/// What of `nodes` is within `reach` (tree's units) of a voxel of the block and may be nearest to it; nodes
-/// large beside the block are replaced by their children. Thread-safe.
-void refine(const TriangleTree& tree, std::span<const Nodes> nodes, const Block& block, float reach,
-            std::vector<Nodes>& out);
+/// Splits a block in eight, x slowest. Parts get what of the candidates is within `reach` (tree's units) of
+/// one of their voxels and can be nearest to it; nodes large beside them are replaced by their children.
+/// Thread-safe.
+void split(const TriangleTree& tree, const Candidates& from, const Block& block, float reach,
+           std::array<Candidates, 8>& parts);
 
 /// How far to look, tree's units, at voxels inside (a bit of `rows`, one a z-row) and outside.
 struct BrickLimits {
@@ -47,8 +48,8 @@ struct BrickLimits {
     float outer, inner;
 };
 
-/// `nodes` as refine() gave them for a brick. Thread-safe. Cost: 100 to 200 ns a voxel within the limits.
-void nearest_triangles(const TriangleTree& tree, std::span<const Nodes> nodes, const Block& brick,
+/// `from` as split() gave them for a brick. Thread-safe. Cost: 100 to 200 ns a voxel within the limits.
+void nearest_triangles(const TriangleTree& tree, const Candidates& from, const Block& brick,
                        const BrickLimits& limits, NearestTriangles& out);
 
 }

@@ -15,7 +15,7 @@ constexpr float rounding = 0x1p-21f;
 constexpr float nowhere = 1e18f; // its square is finite
 
 struct Cylinder {
-    Vec3 centre, axis;
+    Vec3 centre, axis, point;
     float thickness, radius;
 };
 
@@ -28,6 +28,10 @@ void set_lane(float (&v)[3][eight], int i, const Vec3& p) {
         v[axis][i] = p[axis];
 }
 
+float length2(const Vec3& v) {
+    return glm::dot(v, v);
+}
+
 Vec3 unit_or_z(const Vec3& v) {
     const float length = glm::length(v);
     return length > 0.0f ? v / length : Vec3(0, 0, 1);
@@ -36,6 +40,7 @@ Vec3 unit_or_z(const Vec3& v) {
 TriangleGroup group_of(std::span<const Piece> pieces) {
     TriangleGroup group;
     group.origin = pieces[0].origin;
+    group.count = static_cast<std::uint32_t>(pieces.size());
     for (int i = 0; i < eight; ++i) {
         const Piece& p =
             pieces[static_cast<std::size_t>(i) < pieces.size() ? static_cast<std::size_t>(i) : 0];
@@ -105,6 +110,12 @@ Cylinder bounds_of(const TriangleGroup& g) {
             across2[i] = std::max(across2[i], px * px + py * py + pz * pz);
         }
     const float bottom = least_of(low), top = most_of(high);
+    const auto third = [&](int i) { return lane(g.a, i) + (lane(g.ab, i) + lane(g.ac, i)) / 3.0f; };
+    result.point = third(0);
+    for (int i = 1; i < eight; ++i)
+        if (const Vec3 p = third(i); length2(p - m) < length2(result.point - m))
+            result.point = p;
+    result.point += Vec3(g.origin);
     result.centre += 0.5f * (bottom + top) * n + Vec3(g.origin);
     result.thickness = 0.5f * (top - bottom);
     result.radius = std::sqrt(most_of(across2));
@@ -119,7 +130,7 @@ Cylinder bounds_of(const BoundsGroup& g) {
         most = glm::max(most, centre + g.radius[i]);
         normal += g.radius[i] * g.radius[i] * lane(g.axis, i);
     }
-    Cylinder result{0.5f * (least + most), unit_or_z(normal), 0.0f, 0.0f};
+    Cylinder result{0.5f * (least + most), unit_or_z(normal), lane(g.point, 0), 0.0f, 0.0f};
     float low = nowhere, high = -nowhere;
     for (int i = 0; i < eight && g.radius[i] >= 0.0f; ++i) {
         const Vec3 way = lane(g.centre, i) - result.centre;
@@ -127,6 +138,9 @@ Cylinder bounds_of(const BoundsGroup& g) {
         const float cosine = std::min(1.0f, std::fabs(glm::dot(lane(g.axis, i), result.axis)));
         const float sine = std::sqrt(1.0f - cosine * cosine);
         const float half = cosine * g.thickness[i] + sine * g.radius[i];
+        if (const Vec3 p = lane(g.point, i);
+            length2(p - result.centre) < length2(result.point - result.centre))
+            result.point = p;
         low = std::min(low, height - half);
         high = std::max(high, height + half);
         result.radius = std::max(result.radius, glm::length(way - height * result.axis) + g.radius[i] +
@@ -146,11 +160,12 @@ void add_level(std::vector<BoundsGroup>& bounds, std::size_t at, const Node* nod
             for (int i = 0; i < eight; ++i) {
                 const std::size_t child = eight * group + static_cast<std::size_t>(i);
                 BoundsGroup& b = bounds[at + group];
-                Cylinder c{Vec3(nowhere), Vec3(0, 0, 1), 0.0f, -1.0f};
+                Cylinder c{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f};
                 if (child < count)
                     c = bounds_of(nodes[child]);
                 set_lane(b.centre, i, c.centre);
                 set_lane(b.axis, i, c.axis);
+                set_lane(b.point, i, c.point);
                 b.thickness[i] = c.thickness;
                 b.radius[i] = c.radius;
                 b.child[i] = static_cast<std::uint32_t>(first + child);

@@ -16,6 +16,7 @@ struct alignas(64) TriangleGroup {
     float a[3][size], ab[3][size], ac[3][size];
     Index3 origin;
     std::uint32_t triangle[size];
+    std::uint32_t count; ///< slots with a triangle
 };
 
 /// Bounds of eight subtrees: all that is in one lies in a cylinder around its centre, at most `thickness`
@@ -25,6 +26,7 @@ struct alignas(64) BoundsGroup {
     static constexpr int size = 8;
 
     float centre[3][size], axis[3][size];
+    float point[3][size]; ///< one of the surface, near the centre
     float thickness[size], radius[size];
     std::uint32_t child[size]; ///< a triangle group below TriangleTree::leaves, a group of bounds above
 };
