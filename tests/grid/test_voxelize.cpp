@@ -15,7 +15,7 @@ namespace alcove {
 namespace {
 
 struct Errors {
-    double mean = 0.0, percentile99 = 0.0;
+    double mean = 0.0, largest = 0.0;
     double wrong_sign = 0.0;    ///< share of the voxels
     double deepest_wrong = 0.0; ///< voxels
     std::size_t samples = 0;
@@ -46,9 +46,8 @@ Errors errors_at_centres(const Bricks& level, Sign sign, const test::ExactSurfac
             result.deepest_wrong = std::max(result.deepest_wrong, voxels);
         }
     }
-    std::sort(errors.begin(), errors.end());
     result.mean /= static_cast<double>(errors.size());
-    result.percentile99 = errors[errors.size() * 99 / 100];
+    result.largest = *std::max_element(errors.begin(), errors.end());
     result.wrong_sign = static_cast<double>(wrong) / static_cast<double>(errors.size());
     result.samples = errors.size();
     return result;
@@ -56,13 +55,14 @@ Errors errors_at_centres(const Bricks& level, Sign sign, const test::ExactSurfac
 
 void expect_exact_distances(const LevelStack& field, Sign sign, const test::RealMesh& real) {
     const test::ExactSurface exact(real.mesh, real.triangles, real.frame);
+    // Each winding number takes all triangles.
+    const int samples = static_cast<int>(std::min<std::size_t>(1000, 10'000'000 / real.triangles.size()));
     for (const Bricks& level : field.levels()) {
-        const Errors e = errors_at_centres(level, sign, exact, 1000);
-        SCOPED_TRACE(fmt::format("1/{:.0f}: mean {:.5f} p99 {:.4f} wrong {:.2f} % up to {:.2f}",
-                                 1 / level.voxel(), e.mean, e.percentile99, 100 * e.wrong_sign,
-                                 e.deepest_wrong));
-        EXPECT_LE(e.mean, 0.001);
-        EXPECT_LE(e.percentile99, 0.03);
+        const Errors e = errors_at_centres(level, sign, exact, samples);
+        SCOPED_TRACE(fmt::format("1/{:.0f}: mean {:.6f} max {:.6f} wrong {:.2f} % up to {:.2f}",
+                                 1 / level.voxel(), e.mean, e.largest, 100 * e.wrong_sign, e.deepest_wrong));
+        EXPECT_LE(e.mean, 1e-4);
+        EXPECT_LE(e.largest, 1e-3);
         EXPECT_LE(e.wrong_sign, 0.01);
         if (sign == Sign::solid) {
             EXPECT_LE(e.deepest_wrong, 0.5);
@@ -91,18 +91,16 @@ INSTANTIATE_TEST_SUITE_P(Archive, SolidMesh,
                                          "rotor.off", "cube.off", "sphere.off", "anchor.off", "pinion.off",
                                          "bull.off", "eight.off"));
 
-/// Closed meshes whose parts run into each other: inside of one part, near a face of another, the faces do
-/// not tell inside from outside. Distances are as exact, and few voxels near the surface are on the wrong
-/// side.
-class OverlappingMesh : public testing::TestWithParam<const char*> {};
+/// Closed meshes whose parts run into each other: inside of any of them is inside.
+INSTANTIATE_TEST_SUITE_P(Overlapping, SolidMesh,
+                         testing::Values("cow.off", "camel.off", "elk.off", "bones.off", "diplodocus.off",
+                                         "man.off"));
 
-TEST_P(OverlappingMesh, HasExactDistancesAndFewWrongSigns) {
-    const test::RealMesh real(GetParam());
+/// As a sheet the distances are as exact, and what is negative is within half a voxel of a face.
+TEST(SheetMesh, DistancesAreExact) {
+    const test::RealMesh real("ChineseDragon-10kv.off");
     expect_exact_distances(LevelStack(voxelize_at_128(real)), Sign::sheet, real);
 }
-
-INSTANTIATE_TEST_SUITE_P(Archive, OverlappingMesh,
-                         testing::Values("cow.off", "camel.off", "ChineseDragon-10kv.off"));
 
 }
 }
