@@ -18,6 +18,10 @@ double length2(const Vec3d& v) {
     return glm::dot(v, v);
 }
 
+double longest2(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    return std::max({length2(b - a), length2(c - b), length2(a - c)});
+}
+
 /// Calls `visit(corners)` for each piece of a triangle, corner 0 opposite to the longest side.
 template <class Visit>
 void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, Visit&& visit) {
@@ -71,52 +75,77 @@ void group(std::span<const Keyed> order, std::uint32_t begin, std::uint32_t end,
 }
 
 GroupedPieces grouped_pieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
-    const std::size_t blocks = (triangles.size() + grain - 1) / grain;
-    const auto for_each_piece = [&](std::size_t t, auto&& visit) {
-        const Vec3d &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
-                    &c = positions[triangles[t][2]];
-        if (has_area(a, b, c))
-            cut(a, b, c, visit);
-    };
-    std::vector<std::size_t> first(blocks + 1, 0);
-    std::vector<double> extents(blocks, 0.0);
-    parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
-        const std::size_t block = begin / grain;
-        for (std::size_t t = begin; t < end; ++t)
-            for_each_piece(t, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-                ++first[block + 1];
-                const Vec3d most = glm::max(glm::max(a, b), c);
-                extents[block] = std::max({extents[block], most.x, most.y, most.z});
-            });
-    });
     double extent = 1.0;
-    for (std::size_t block = 0; block < blocks; ++block) {
-        first[block + 1] += first[block];
-        extent = std::max(extent, extents[block]);
-    }
-
+    for (const Vec3d& p : positions)
+        if (const double most = std::max({p.x, p.y, p.z}); std::isfinite(most))
+            extent = std::max(extent, most);
     const double scale = std::min(cells_per_voxel, most_cells / extent);
-    const int bits = 3 * (std::ilogb(scale * extent) + 1);
-    std::vector<Piece> pieces(first.back());
-    std::vector<Keyed> order(first.back());
+    const auto piece = [](const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
+        const Vec3d origin = glm::floor(a);
+        return Piece{Index3(origin),
+                     {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)},
+                     static_cast<std::uint32_t>(triangle)};
+    };
+
+    // Most triangles are one piece, which is made when its place is known; those of the others are kept.
+    struct Cut {
+        std::vector<Keyed> whole; // by triangle
+        std::vector<Keyed> parts; // by index below
+        std::vector<Piece> pieces;
+    };
+    std::vector<Cut> blocks((triangles.size() + grain - 1) / grain);
     parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
-        std::size_t i = first[begin / grain];
-        for (std::size_t t = begin; t < end; ++t)
-            for_each_piece(t, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-                const Vec3d origin = glm::floor(a);
-                pieces[i] = {Index3(origin),
-                             {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)},
-                             static_cast<std::uint32_t>(t)};
-                order[i] = {morton(scale / 3.0 * (a + b + c)), static_cast<std::uint32_t>(i)};
-                ++i;
+        Cut& block = blocks[begin / grain];
+        block.whole.reserve(end - begin);
+        for (std::size_t t = begin; t < end; ++t) {
+            const Vec3d &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
+                        &c = positions[triangles[t][2]];
+            const auto key = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+                return morton(scale / 3.0 * (p + q + r));
+            };
+            if (!has_area(a, b, c))
+                continue;
+            if (longest2(a, b, c) <= longest_piece * longest_piece) {
+                block.whole.push_back({key(a, b, c), static_cast<std::uint32_t>(t)});
+                continue;
+            }
+            cut(a, b, c, [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+                block.parts.push_back({key(p, q, r), static_cast<std::uint32_t>(block.pieces.size())});
+                block.pieces.push_back(piece(p, q, r, t));
             });
+        }
     });
-    radix_sort(order, bits);
+    std::size_t count = 0;
+    for (const Cut& block : blocks)
+        count += block.whole.size() + block.parts.size();
+    std::vector<Keyed> order;
+    std::vector<Piece> parts;
+    order.reserve(count);
+    for (const Cut& block : blocks) {
+        order.insert(order.end(), block.whole.begin(), block.whole.end());
+        for (const Keyed& part : block.parts)
+            order.push_back(
+                {part.key, static_cast<std::uint32_t>(triangles.size() + parts.size() + part.value)});
+        parts.insert(parts.end(), block.pieces.begin(), block.pieces.end());
+    }
+    blocks.clear();
+    radix_sort(order, 3 * (std::ilogb(scale * extent) + 1));
+
     GroupedPieces sorted;
-    sorted.pieces.resize(pieces.size());
-    parallel_for(pieces.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            sorted.pieces[i] = pieces[order[i].value];
+    sorted.pieces.resize(count);
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t value = order[i].value;
+            if (value >= triangles.size()) {
+                sorted.pieces[i] = parts[value - triangles.size()];
+                continue;
+            }
+            const Triangle& t = triangles[value];
+            cut(positions[t[0]], positions[t[1]], positions[t[2]],
+                [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+                    sorted.pieces[i] = piece(a, b, c, value);
+                });
+        }
     });
     sorted.begin.push_back(0);
     if (!order.empty())

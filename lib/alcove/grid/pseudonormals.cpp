@@ -1,5 +1,6 @@
 #include "alcove/grid/pseudonormals.h"
 
+#include "alcove/mesh/weld.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -18,9 +19,8 @@ float corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
 
 }
 
-Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
-                             std::vector<std::uint32_t> joined)
-    : positions_(positions), triangles_(triangles), joined_(std::move(joined)),
+Pseudonormals::Pseudonormals(const std::vector<Vec3d>& positions, std::span<const Triangle> triangles)
+    : positions_(positions), triangles_(triangles), joined_(weld(positions)),
       face_normals_(triangles.size(), Vec3(0.0f)) {
     parallel_for(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

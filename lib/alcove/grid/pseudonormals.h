@@ -13,9 +13,8 @@ namespace alcove {
 /// of any surface. Triangles without an area take no part. Const use is thread-safe.
 class Pseudonormals {
   public:
-    /// `joined` gives every vertex the one that stands for its place (weld.h). Both spans must outlive this.
-    Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
-                  std::vector<std::uint32_t> joined);
+    /// Positions and triangles must outlive this.
+    Pseudonormals(const std::vector<Vec3d>& positions, std::span<const Triangle> triangles);
 
     /// The sign of the side of `triangle`, the nearest to `p`: negative behind it; 0 at the rim of an open
     /// surface, which has no side.
@@ -31,10 +30,10 @@ class Pseudonormals {
 
     std::span<const Vec3d> positions_;
     std::span<const Triangle> triangles_;
-    std::vector<std::uint32_t> joined_;
-    std::vector<Vec3> face_normals_;   // one a triangle, unit length or zero
-    std::vector<Vec3> edge_normals_;   // three a triangle; zero at a rim
-    std::vector<Vec3> vertex_normals_; // one a joined vertex; zero at a rim
+    std::vector<std::uint32_t> joined_; // of each vertex: the first of those at its place
+    std::vector<Vec3> face_normals_;    // one a triangle, unit length or zero
+    std::vector<Vec3> edge_normals_;    // three a triangle; zero at a rim
+    std::vector<Vec3> vertex_normals_;  // one a joined vertex; zero at a rim
 };
 
 }

@@ -1,6 +1,7 @@
 #include "alcove/grid/solidity.h"
 
 #include "alcove/mesh/edge_table.h"
+#include "alcove/mesh/weld.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,9 @@ namespace {
 constexpr double least_bounding = 0.05;
 
 /// Whether a connected part of the surface is practically nowhere between inside and outside.
-bool buries_a_part(const WindingColumns& columns, std::span<const Triangle> triangles,
-                   std::span<const std::uint32_t> joined) {
+bool buries_a_part(const WindingColumns& columns, const std::vector<Vec3d>& positions,
+                   std::span<const Triangle> triangles) {
+    const std::vector<std::uint32_t> joined = weld(positions);
     DisjointSets parts(joined.size());
     for (const Triangle& t : triangles)
         for (const std::uint32_t v : t)
@@ -36,7 +38,7 @@ bool buries_a_part(const WindingColumns& columns, std::span<const Triangle> tria
 }
 
 Sign choose_sign(SignChoice choice, const Closedness& shape, const WindingColumns& columns,
-                 std::span<const Triangle> triangles, std::span<const std::uint32_t> joined,
+                 const std::vector<Vec3d>& positions, std::span<const Triangle> triangles,
                  std::vector<std::string>& warnings) {
     if (choice == SignChoice::sheet)
         return Sign::sheet;
@@ -51,7 +53,7 @@ Sign choose_sign(SignChoice choice, const Closedness& shape, const WindingColumn
     }
     if (!shape.closed() || leaking > 0.0)
         return Sign::sheet;
-    return columns.overlapping() && buries_a_part(columns, triangles, joined) ? Sign::sheet : Sign::solid;
+    return columns.overlapping() && buries_a_part(columns, positions, triangles) ? Sign::sheet : Sign::solid;
 }
 
 }

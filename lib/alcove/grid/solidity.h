@@ -15,10 +15,8 @@ namespace alcove {
 /// A closed surface is a solid, also where its parts run into each other: inside of any of them is inside.
 /// Not so when a whole part would vanish in the inside of another: shells in shells, and parts inside out,
 /// stay a sheet. The wall of a cavity, turned inward, bounds the solid and is kept.
-///
-/// \param joined for each vertex the one that stands for its place (mesh/weld.h)
 Sign choose_sign(SignChoice choice, const Closedness& shape, const WindingColumns& columns,
-                 std::span<const Triangle> triangles, std::span<const std::uint32_t> joined,
+                 const std::vector<Vec3d>& positions, std::span<const Triangle> triangles,
                  std::vector<std::string>& warnings);
 
 }

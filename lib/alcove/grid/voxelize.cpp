@@ -3,7 +3,6 @@
 #include "alcove/errors.h"
 #include "alcove/grid/level_set.h"
 #include "alcove/grid/solidity.h"
-#include "alcove/mesh/weld.h"
 #include "alcove/parallel.h"
 
 #include <fmt/format.h>
@@ -53,8 +52,19 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(mesh.box(), stack.frame, plan);
     const std::vector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
-    const GroupedPieces pieces = grouped_pieces(positions, triangles);
-    if (pieces.pieces.empty())
+    Closedness shape;
+    std::optional<TriangleTree> tree;
+    std::optional<WindingColumns> columns;
+    parallel_for(2, 1, [&](std::size_t task, std::size_t) {
+        if (task == 0) {
+            shape = closedness(mesh);
+            return;
+        }
+        if (const GroupedPieces pieces = grouped_pieces(positions, triangles); !pieces.pieces.empty())
+            tree.emplace(pieces);
+        columns.emplace(positions, triangles);
+    });
+    if (!tree)
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
 
     if (plan.voxel > 0.25f * options.grid.radius)
@@ -67,18 +77,13 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         if (options.progress)
             options.progress(share);
     };
-    const Closedness shape = closedness(mesh);
     warn_of_orientation(shape, stack.warnings);
-    done(0.1);
-    const TriangleTree tree(pieces);
-    const WindingColumns columns(positions, triangles);
-    std::vector<std::uint32_t> joined = weld(mesh.positions);
-    stack.sign = choose_sign(options.sign, shape, columns, triangles, joined, stack.warnings);
+    stack.sign = choose_sign(options.sign, shape, *columns, positions, triangles, stack.warnings);
     std::optional<Pseudonormals> normals;
     if (stack.sign == Sign::sheet)
-        normals.emplace(positions, triangles, std::move(joined));
-    const Band band = normals ? Band(tree, *normals, plan.outer_band)
-                              : Band(tree, columns, {plan.outer_band, plan.inner_band});
+        normals.emplace(positions, triangles);
+    const Band band = normals ? Band(*tree, *normals, plan.outer_band)
+                              : Band(*tree, *columns, {plan.outer_band, plan.inner_band});
     done(0.3);
     for (int level = 0; level < plan.levels; ++level) {
         const float voxel = std::ldexp(plan.voxel, level);
