@@ -110,7 +110,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
     const bool solid = d.closed() && d.inverted_components == 0;
     facts.add("sign", solid ? "solid" : "sheet",
               d.components == 0 ? "none: there is nothing to bake"
-              : solid           ? "a solid, unless its voxels show that parts of it overlap or are nested"
+              : solid           ? "a solid, unless one part of it lies within another"
                                 : "a sheet, faces occlude from both sides and no inside is assumed");
 }
 

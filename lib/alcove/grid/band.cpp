@@ -63,7 +63,7 @@ std::vector<BandBlock> Band::blocks(int stride) const {
 BandBrick Band::brick(const BandBlock& block, int stride) const {
     const auto units = static_cast<float>(stride);
     const Block at{block.low, brick_size, stride};
-    std::array<std::uint8_t, brick_size * brick_size> inside{};
+    std::array<std::uint8_t, brick_rows> inside{};
     if (columns_)
         inside = columns_->inside(at);
     NearestTriangles nearest;

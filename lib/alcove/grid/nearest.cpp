@@ -231,10 +231,10 @@ class VoxelSearch {
         }
     }
 
-    const TriangleTree& tree_;
-    EightPoints voxels_;
     alignas(64) float distance2_[eight];
     alignas(64) std::uint32_t triangle_[eight];
+    const TriangleTree& tree_;
+    EightPoints voxels_;
 };
 
 /// Shares out candidates among the eight octants of a block.
@@ -309,14 +309,14 @@ class Sharing {
             parts_[static_cast<std::size_t>(std::countr_zero(wanted))].nodes.push_back(node);
     }
 
-    const TriangleTree& tree_;
-    EightPoints centres_;
-    float half_;
-    std::array<Candidates, eight>& parts_;
     alignas(64) float distance2_[eight]; // to the points below
     alignas(64) std::uint32_t nearest_[eight];
     alignas(64) float point_[3][eight]; // of the surface
     alignas(64) float most_[eight];
+    const TriangleTree& tree_;
+    EightPoints centres_;
+    float half_;
+    std::array<Candidates, eight>& parts_;
 };
 
 /// The centres of the octants, themselves voxels where the block is of 2³.

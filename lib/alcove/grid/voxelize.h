@@ -10,7 +10,7 @@
 namespace alcove {
 
 enum class SignChoice {
-    automatic, ///< solid where the mesh is closed and oriented outward and its grid agrees, else sheet
+    automatic, ///< solid where the mesh is closed, oriented outward and hides no part in another, else sheet
     solid,
     sheet,
 };
@@ -23,8 +23,9 @@ struct VoxelizeOptions {
 };
 
 /// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor
-/// its place matter. The finest level touches every triangle; coarser ones are seeded from the one before.
-/// The result does not depend on the number of threads.
+/// its place matter. Distances are exact, to the nearest triangle; solids are where the winding number is 1 or
+/// more. A tree of the triangles is built once and searched for each level, so only the first step touches
+/// every triangle. The result does not depend on the number of threads.
 ///
 /// \throw InputError if no triangle has an area; LimitError as plan_levels().
 GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles,

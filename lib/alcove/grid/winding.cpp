@@ -183,10 +183,10 @@ void WindingColumns::for_each_crossing(const std::function<void(std::uint32_t, b
     });
 }
 
-std::array<std::uint8_t, brick_size * brick_size> WindingColumns::inside(const Block& brick) const {
-    std::array<std::uint8_t, brick_size * brick_size> rows{};
+std::array<std::uint8_t, brick_rows> WindingColumns::inside(const Block& brick) const {
+    std::array<std::uint8_t, brick_rows> rows{};
     for (int i = 0; i < brick_size; ++i) {
-        const auto x = static_cast<std::size_t>((brick.low.x + i) * brick.stride);
+        const auto x = static_cast<std::size_t>(brick.low.x + i) * static_cast<std::size_t>(brick.stride);
         if (x + 1 >= row_begin_.size())
             break;
         const auto row_end = crossings_.begin() + static_cast<std::ptrdiff_t>(row_begin_[x + 1]);
@@ -198,9 +198,9 @@ std::array<std::uint8_t, brick_size * brick_size> WindingColumns::inside(const B
             for (auto c = at; c != row_end && c->y == y; ++c)
                 above -= c->turn;
             int below = 0;
-            std::uint8_t& row = rows[static_cast<std::size_t>(i * brick_size + j)];
+            std::uint8_t& row = rows[static_cast<std::size_t>(i) * brick_size + static_cast<std::size_t>(j)];
             for (int k = 0; k < brick_size; ++k) {
-                const double z = static_cast<double>(brick.low.z + k) * brick.stride;
+                const double z = double(brick.low.z + k) * brick.stride;
                 for (; at != row_end && at->y == y && at->z <= z; ++at) {
                     below += at->turn;
                     above += at->turn;

@@ -35,7 +35,7 @@ class WindingColumns {
 
     /// The voxels of winding number 1 and more of a block of brick_size³, a bit each: one byte a z-row, y
     /// fastest. In columns that do not cancel, those of which this is so counted from either end.
-    std::array<std::uint8_t, brick_size * brick_size> inside(const Block& brick) const;
+    std::array<std::uint8_t, brick_rows> inside(const Block& brick) const;
 
   private:
     struct Crossing {
