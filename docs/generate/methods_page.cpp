@@ -84,8 +84,8 @@ class DocumentsScene : public Scene {
   private:
     static Box box() {
         Box box;
-        box.add({-4.5, -0.5, -5.0});
-        box.add({4.5, 2.2, 7.0});
+        box.add({-20.0, -0.5, -5.0});
+        box.add({20.0, 2.2, 30.0});
         return box;
     }
 

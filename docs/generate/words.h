@@ -29,17 +29,58 @@ which is what the best constant guess would score:
 )";
 
 inline const std::map<std::string_view, std::string_view> honest_words{
-    {"classic", ""},
-    {"exponential", ""},
-    {"decay", ""},
-    {"multiplicative", ""},
-    {"multiscale", ""},
-    {"jittered", ""},
-    {"hemisphere", ""},
-    {"hemisphere_random", ""},
-    {"fibonacci", ""},
-    {"traced", ""},
-    {"exact", ""},
+    {"classic", "The mouth of the lion and the neck of the armadillo are far too dark: a probe straight "
+                "above a point is near a "
+                "wall long before that wall hides much of the sky. Where the ground is open but for "
+                "something at its side, as "
+                "around the ring, it is right about where the shade lies and wrong about how fast it fades."},
+    {"exponential", "Nearly white: the weights halve from the first probe on, and the first probe, a fifth "
+                    "of the radius up, is the "
+                    "one that a wide valley does not reach. On the scene there is a rim where the shade of "
+                    "the ring stops at once: "
+                    "no probe of the fan sees further."},
+    {"decay", "Black where the true answer is a third: the first probe weighs half of all, and between ball "
+              "and ring it is on "
+              "the surface. With `linear=true` it is softer, and as blind to the sides."},
+    {"multiplicative", "The shape of the shade is good, its floor is not: six probes that each take a fifth "
+                       "leave a quarter of the light "
+                       "in the deepest corner, and a wide valley loses as much as a narrow one."},
+    {"multiscale", "The flat grey between ball and ring is the floor of 0.035, reached as soon as one of the "
+                   "seven products is 0. "
+                   "Fine grain of the scan comes out strongly, for the lowest probes, 1/64 of the radius up, "
+                   "read the roughness "
+                   "of the grid as much as that of the scan."},
+    {"jittered", "Too bright by half in every crease: each probe is divided by 1 + l. The six hashed heights "
+                 "leave gaps, so that "
+                 "the shade of the ring has steps."},
+    {"hemisphere",
+     "Open ground is grey, 0.92 instead of 1: probes that lie flat are nearer to the ground than they are "
+     "long, and "
+     "nothing tells that from a wall. On the ball the quadrants of the fixed directions show as facets; "
+     "`surfel_frame=true` turns them with the surface."},
+    {"hemisphere_random", "The factor 5 makes everything but the narrowest creases white and these black, a "
+                          "drawing of lines rather than "
+                          "of light. The facets on the ball are the directions fixed in world axes; another "
+                          "seed gives other facets."},
+    {"fibonacci", "The whole picture is grey, 0.62 to 0.73 in the open: the sum of 3 d over a plane is what "
+                  "it is, and the "
+                  "document's factor 6 does not make up for it. Contrast is small, for probes end at a tenth "
+                  "of the scene's unit. "
+                  "Divide by the open value for a mask."},
+    {"traced",
+     "What grain there is comes from 64 rays; more of them smooth it. The scans are a little too bright in "
+     "folds "
+     "finer than a voxel, which the grid has not, and rays start a tenth of a voxel off the surface."},
+    {"calibrated",
+     "Right on the average and wrong in particular: between ball and ring, a shape no training mesh had at "
+     "that "
+     "scale, it is black. It knows a crease by what creases were to the scans it was fitted to."},
+    {"guided", "Three rays a vertex, and no grain: what could be noise is shared with neighbours whose field "
+               "is alike. Single "
+               "dark vertices, as in the mane of the lion, are drawn toward their neighbours until there are "
+               "more rays."},
+    {"exact",
+     "Nothing but grain. The specks on the lion are true: vertices in folds that face a wall at once."},
 };
 
 }
