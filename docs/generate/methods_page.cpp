@@ -152,7 +152,7 @@ std::string parameters_of(const Method& method) {
     for (const ParameterInfo& p : method.parameters())
         text +=
             fmt::format("{}`{}={}`{} {}", text.empty() ? "" : "; ", p.name,
-                        p.flag ? (p.standard != 0.0 ? "true" : "false") : fmt::format("{:.10g}", p.standard),
+                        p.flag ? (p.standard != 0.0 ? "true" : "false") : fmt::format("{:.6g}", p.standard),
                         p.unit.empty() ? "" : fmt::format(" {}", p.unit), p.summary);
     return text.empty() ? "none" : text;
 }

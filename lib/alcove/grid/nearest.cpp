@@ -75,10 +75,6 @@ HWY_INLINE Vec3v everywhere(float x, float y, float z) {
     return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
 }
 
-HWY_INLINE Vec3v voxel(const Index3& at) {
-    return everywhere(static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z));
-}
-
 HWY_INLINE std::uint32_t bits_of(M mask) {
     alignas(64) std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
