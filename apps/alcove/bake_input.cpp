@@ -49,25 +49,31 @@ void warn_of_distance(const VoxelizedMesh& input, const std::string& file,
                         grouped(off), grouped(input.mesh.vertex_count()), file));
 }
 
-/// The stack in the frame of the mesh, as far as the radius.
-void take_grid(VoxelizedMesh& input, GridStack stack, const Length& radius, const std::string& file) {
+/// The stack in the frame of the mesh, as far as the radius, inside too where that is asked.
+void take_grid(VoxelizedMesh& input, GridStack stack, const GridRequest& request, const std::string& file) {
     input.frame = frame_of(input.mesh.box());
     input.stack = reframed(std::move(stack), input.frame);
-    input.radius = radius.to_unit(input.frame.diagonal, input.stack.levels.front().voxel);
+    input.radius = parse_length(request.radius, "--radius")
+                       .to_unit(input.frame.diagonal, input.stack.levels.front().voxel);
     const float reach = input.stack.reach();
-    if (reach >= std::min(input.radius, 1.0f))
-        return;
-    input.stack = extend_levels(std::move(input.stack), input.radius);
-    input.warnings.push_back(
-        fmt::format("{} holds distances up to {:.4g}, less than the radius: coarser levels "
-                    "are made from its surface; a band as wide as the radius needs none",
-                    file, reach * input.frame.diagonal));
+    if (request.inside && !input.stack.knows_inside())
+        input.warnings.push_back(fmt::format(
+            "{} knows too little of the inside for these attributes: it is voxelized again from its "
+            "own surface; save the grid of a bake with them",
+            file));
+    else if (reach < std::min(input.radius, 1.0f))
+        input.warnings.push_back(
+            fmt::format("{} holds distances up to {:.4g}, less than the radius: coarser levels "
+                        "are made from its surface; a band as wide as the radius needs none",
+                        file, reach * input.frame.diagonal));
+    input.stack = extend_levels(std::move(input.stack), input.radius, request.inside);
 }
 
-VoxelizedMesh read_grid_input(const BakeInputRequest& request, const Length& radius,
+VoxelizedMesh read_grid_input(const BakeInputRequest& request, const GridRequest& grid,
                               nlohmann::ordered_json& seconds) {
     const bool meshed = request.grid.empty();
     const std::string& file = meshed ? request.input : request.grid;
+    parse_length(grid.radius, "--radius"); // wrong ones are said before any work
     Stopwatch watch;
     VoxelizedMesh result;
     if (!meshed) {
@@ -80,7 +86,7 @@ VoxelizedMesh read_grid_input(const BakeInputRequest& request, const Length& rad
         if (meshed)
             result.mesh = mesh_zero_surface(stack, request.adaptivity);
         result.triangles = triangulate(result.mesh).triangles;
-        take_grid(result, std::move(stack), radius, file);
+        take_grid(result, std::move(stack), grid, file);
     } catch (const InputError& error) {
         throw InputError(file + ": " + error.what());
     }
@@ -116,7 +122,7 @@ VoxelizedMesh read_bake_input(const BakeInputRequest& request, const GridRequest
     }
     if (from_mesh)
         return read_and_voxelize(request.input, grid, common, seconds);
-    return read_grid_input(request, parse_length(grid.radius, "--radius"), seconds);
+    return read_grid_input(request, grid, seconds);
 }
 
 }

@@ -135,6 +135,27 @@ TEST(MeshGrid, ExtendedLevelsKeepTheGridAndHoldFurtherDistances) {
     }
 }
 
+TEST(MeshGrid, AStackThatKnowsTooLittleOfTheInsideIsReplacedWhereItIsAsked) {
+    const Mesh mesh = test::sphere_mesh(6);
+    const GridStack thin = voxelize(mesh, triangulate(mesh).triangles, {.grid = {.voxel = 1.0f / 64}});
+    EXPECT_FALSE(thin.knows_inside());
+    EXPECT_EQ(extend_levels(thin, 0.1f).levels.front().grid, thin.levels.front().grid);
+    const GridStack whole = extend_levels(thin, 0.2f, true);
+    EXPECT_TRUE(whole.knows_inside());
+    EXPECT_FLOAT_EQ(whole.levels.front().voxel, thin.levels.front().voxel);
+    const LevelStack field(whole);
+    const auto radius = static_cast<float>(1.0 / mesh.box().diagonal());
+    for (const float depth : {0.02f, 0.05f, 0.1f}) {
+        const float x = radius - depth, y = 0.0f, z = 0.0f;
+        float d = 0.0f;
+        field.map(Points{&x, &y, &z, 1}, depth, &d);
+        EXPECT_NEAR(d, -depth, 0.003f) << depth;
+    }
+    // What is filled inside tells, in a file without our metadata, how far in it knows.
+    EXPECT_TRUE(foreign_sphere(1.0, Vec3d(0.0), 0.05, 3.0f).knows_inside());
+    EXPECT_EQ(extend_levels(whole, 0.2f, true).levels.front().grid, whole.levels.front().grid);
+}
+
 TEST(MeshGrid, AStackInAnotherFrameIsTheSameSurface) {
     const GridStack stack = foreign_sphere(3.0, {10, 20, -5}, 0.1, 5.0f);
     const Frame frame{{9, 22, -6}, 4.0};

@@ -76,6 +76,15 @@ void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
                                  grid.getName(), bad.load()));
 }
 
+/// Voxels inward where values are distances: up to the value that fills the inside, as far as outward where
+/// nothing is filled.
+float inner_band_of(const FloatGrid& grid, double voxel, float outer_band) {
+    float deepest = 0.0f;
+    for (auto value = grid.cbeginValueOff(); value; ++value)
+        deepest = std::min(deepest, *value);
+    return deepest < 0.0f ? static_cast<float>(-deepest / voxel) : outer_band;
+}
+
 LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std::filesystem::path& file) {
     const Frame& frame = stack.frame;
     const auto& transform = grid->transform();
@@ -94,6 +103,7 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std:
     const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
     level.origin = frame.to_unit({origin.x(), origin.y(), origin.z()});
     level.outer_band = static_cast<float>(grid->background() / size);
+    level.inner_band = inner_band_of(*grid, size, level.outer_band);
     level.active_voxels = grid->activeVoxelCount();
     level.bytes = grid->memUsage();
     scale_values(*grid, 1.0 / stack.value_unit);
@@ -130,7 +140,8 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
                                      grid->getName()));
         level.voxel = static_cast<float>(voxel);
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
-        if (!(level.outer_band >= 3.0f))
+        level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
+        if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))
             refuse(file,
                    fmt::format("grid '{}' has lost its alcove metadata: write it again", grid->getName()));
         stack.levels.push_back(std::move(level));
@@ -210,6 +221,7 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         put("alcove:diagonal", stack.frame.diagonal);
         put("alcove:voxel", level.voxel);
         put("alcove:outer_band", level.outer_band);
+        put("alcove:inner_band", level.inner_band);
         grid->insertMeta("alcove:sign",
                          openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
         grids.push_back(grid);

@@ -4,6 +4,7 @@
 
 #include "alcove/types.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -28,6 +29,7 @@ struct LevelSet {
     float voxel = 0.0f;      ///< edge of a voxel, unit space
     Vec3 origin{0.0f};       ///< centre of the voxel of index (0, 0, 0), unit space
     float outer_band = 0.0f; ///< voxels from the surface outward where values are distances
+    float inner_band = 0.0f; ///< the same inward; of a sheet both are air
     std::size_t active_voxels = 0;
     std::size_t bytes = 0; ///< memory of the grid
 };
@@ -46,6 +48,12 @@ struct GridStack {
 
     /// Largest distance, unit space, that the last level holds.
     float reach() const { return (levels.back().outer_band - 1.0f) * levels.back().voxel; }
+    /// Whether every level knows the inside as far as the outside.
+    bool knows_inside() const {
+        return std::all_of(levels.begin(), levels.end(), [](const LevelSet& level) {
+            return level.inner_band >= 0.999f * level.outer_band;
+        });
+    }
     std::size_t bytes() const {
         std::size_t sum = 0;
         for (const LevelSet& level : levels)

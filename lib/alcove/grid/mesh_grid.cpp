@@ -39,16 +39,22 @@ Mesh mesh_zero_surface(const GridStack& stack, float adaptivity) {
     return mesh;
 }
 
-GridStack extend_levels(GridStack stack, float radius) {
-    if (stack.reach() >= std::min(radius, 1.0f))
+GridStack extend_levels(GridStack stack, float radius, bool inside) {
+    const bool replace = inside && !stack.knows_inside();
+    if (!replace && stack.reach() >= std::min(radius, 1.0f))
         return stack;
     const Mesh surface = mesh_zero_surface(stack);
     const double scale = stack.frame.diagonal / frame_of(surface.box()).diagonal;
     VoxelizeOptions options;
     options.grid.radius = static_cast<float>(radius * scale);
-    options.grid.voxel = static_cast<float>(2.0 * stack.levels.back().voxel * scale);
+    const double voxel = replace ? stack.levels.front().voxel : 2.0 * stack.levels.back().voxel;
+    options.grid.voxel = static_cast<float>(voxel * scale);
+    if (inside)
+        options.grid.inner_band = options.grid.outer_band;
     options.sign = closedness(surface).closed() ? SignChoice::solid : SignChoice::sheet;
     GridStack coarser = voxelize(surface, triangulate(surface).triangles, options);
+    if (replace)
+        stack.levels.clear();
     const double value_scale = coarser.value_unit / stack.value_unit;
     coarser = reframed(std::move(coarser), stack.frame);
     for (LevelSet& level : coarser.levels) {

@@ -14,8 +14,9 @@ namespace alcove {
 Mesh mesh_zero_surface(const GridStack& stack, float adaptivity = 0.0f);
 
 /// Adds coarser levels, voxelized from the zero surface, until the last reaches `radius` (unit space; infinity
-/// is cut to the diagonal); gives back a stack that does as it is. \throw as mesh_zero_surface(), and
-/// LimitError as voxelize().
-GridStack extend_levels(GridStack stack, float radius);
+/// is cut to the diagonal). With `inside`, a stack that does not know the inside as far as the outside is
+/// replaced by one of the same voxel that does, from the same surface. Gives back a stack that lacks nothing as
+/// it is. \throw as mesh_zero_surface(), and LimitError as voxelize().
+GridStack extend_levels(GridStack stack, float radius, bool inside = false);
 
 }

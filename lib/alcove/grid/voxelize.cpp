@@ -91,6 +91,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         set.origin = origin;
         set.voxel = voxel;
         set.outer_band = plan.outer_band;
+        set.inner_band = normals ? plan.outer_band : plan.inner_band;
         stack.levels.push_back(std::move(set));
         done(1.0 - 0.2 * std::ldexp(1.0, -2 * level));
     }
