@@ -44,6 +44,8 @@ TEST_P(ThicknessOfPlates, IsWithinAVoxel) {
     ASSERT_EQ(sheets.face_count(), 2u);
     for (const Mesh& mesh : {solid, sheets}) {
         SCOPED_TRACE(mesh.face_count() == 6 ? "solid" : "sheets");
+        if (mesh.face_count() == 2 && GetParam() < 1.9)
+            continue; // not seen, as the header says
         const test::Voxelized plate(mesh, radius, voxel);
         EXPECT_EQ(plate.field.two_sided(), mesh.face_count() == 2);
         std::vector<Surfel> surfels;
@@ -57,7 +59,8 @@ TEST_P(ThicknessOfPlates, IsWithinAVoxel) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Voxels, ThicknessOfPlates, testing::Values(1.5, 2.6, 3.3, 5.2, 10.5),
+INSTANTIATE_TEST_SUITE_P(Voxels, ThicknessOfPlates,
+                         testing::Values(1.5, 2.3, 2.6, 3.0, 3.3, 4.4, 5.2, 6.0, 10.0, 10.5),
                          [](const auto& voxels) {
                              return std::to_string(static_cast<int>(voxels.param * 100));
                          });

@@ -11,9 +11,11 @@
 
 namespace alcove {
 
-/// Further than this, in voxels, nothing behind a face of a sheet is negative: no corner of a cell that a face
-/// passes through is further from it than √3.
-inline constexpr float sheet_thickness = 1.75f;
+/// How far behind a face of a sheet its distances are negative, voxels. Well over 1: a face on a plane of the
+/// grid then has a whole layer of negative corners behind it, whatever sign rounding gives those on it, and
+/// rays cannot step through. Corners of crossed cells can be √3 behind, but those further than this weigh next
+/// to nothing where the face is.
+inline constexpr float sheet_thickness = 1.5f;
 
 struct BandWidth {
     float outer = 0.0f; ///< voxels

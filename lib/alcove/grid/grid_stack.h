@@ -18,8 +18,8 @@ struct VdbGrid; // an OpenVDB grid (grid/vdb.h), kept out of public headers
 enum class Sign {
     /// Negative inside a solid: closed, consistently oriented surfaces.
     solid,
-    /// Negative only at the corners of the cells that faces pass through, so that the surface still is a zero crossing seen from
-    /// the front; positive elsewhere on both sides. Right for open, nested, leaking and self-touching surfaces.
+    /// Negative only up to a voxel and a half behind the faces, so that the surface still is a zero crossing seen
+    /// from the front; positive elsewhere on both sides. Right for open, nested, leaking and self-touching surfaces.
     sheet,
 };
 

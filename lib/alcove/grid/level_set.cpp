@@ -16,36 +16,6 @@ using openvdb::FloatTree;
 using Leaf = FloatTree::LeafNodeType;
 static_assert(Leaf::DIM == brick_size && Leaf::NodeMaskType::WORD_COUNT == brick_size);
 
-/// Whether the voxel behind a face is a corner of a cell that the face passes through.
-bool crossed(const openvdb::tree::ValueAccessor<const FloatTree>& values, const Coord& behind,
-             float thickness) {
-    for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-            for (int z = -1; z <= 1; ++z) {
-                float other;
-                if (values.probeValue(behind.offsetBy(x, y, z), other) && other >= 0.0f && other < thickness)
-                    return true;
-            }
-    return false;
-}
-
-/// Leaves negative only what is a corner of a crossed cell.
-void open_sheet(FloatTree& tree, float thickness) {
-    std::vector<Leaf*> leaves;
-    tree.getNodes(leaves);
-    std::vector<std::vector<openvdb::Index>> turned(leaves.size());
-    parallel_for(leaves.size(), 16, [&](std::size_t begin, std::size_t end) {
-        const openvdb::tree::ValueAccessor<const FloatTree> values(tree);
-        for (std::size_t l = begin; l < end; ++l)
-            for (auto voxel = leaves[l]->cbeginValueOn(); voxel; ++voxel)
-                if (*voxel < 0.0f && !crossed(values, voxel.getCoord(), thickness))
-                    turned[l].push_back(voxel.pos());
-    });
-    for (std::size_t l = 0; l < leaves.size(); ++l)
-        for (const openvdb::Index voxel : turned[l])
-            leaves[l]->setValueOnly(voxel, -leaves[l]->getValue(voxel));
-}
-
 }
 
 LevelSet level_set(const Band& band, int stride, double value_scale) {
@@ -77,8 +47,6 @@ LevelSet level_set(const Band& band, int stride, double value_scale) {
             tree->addLeaf(leaf.release());
     if (band.sign() == Sign::solid)
         openvdb::tools::signedFloodFillWithValues(*tree, outside, inside, true, 1, 1);
-    else
-        open_sheet(*tree, scaled(sheet_thickness));
     auto grid = openvdb::FloatGrid::create(tree);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     LevelSet set;

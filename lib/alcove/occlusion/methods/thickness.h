@@ -23,7 +23,7 @@ struct Inverted {
 
 /// thickness = min(radius, distance from p along −n to the next surface), by one ray traced through the inside.
 /// In a solid it starts half a voxel deep at most: what is thinner is told within that. Behind a sheet it starts
-/// 1.4 voxels deep, and what is thinner is not seen. Cost: 6 + 5–20 map() calls a surfel.
+/// 1.9 voxels deep, and what is thinner is not seen. Cost: 6 + 5–20 map() calls a surfel.
 struct Thickness {
     float radius = 0.1f; ///< largest thickness, > 0; may be infinite
 
@@ -67,9 +67,9 @@ struct Thickness {
     }
 
   private:
-    /// The corners just behind a sheet are negative: interpolated with the next ones behind them they look like a
-    /// surface, at most 4/3 voxels behind it.
-    static constexpr float behind_sheet = 1.4f;
+    /// The corners up to 1.5 voxels behind a sheet are negative: interpolated with the next ones behind them they
+    /// look like a surface, at most 1.5 + 1.5/(1.5 + 2.5) voxels behind it.
+    static constexpr float behind_sheet = 1.9f;
 
     /// A voxel before such a hit the field tells the true distance.
     template <Field F>
