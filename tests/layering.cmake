@@ -1,7 +1,7 @@
 # Reads every #include under lib/alcove and apps and fails, naming file and line, on one that goes against
 # the direction of dependencies:
 #
-#     root <- mesh <- grid <- field (bricks, level_* only)    root <- field <- occlusion <- render <- apps
+#     root <- mesh <- grid <- field (bricks, level_* only)    root <- field <- occlusion <- render <- accuracy <- apps
 #
 #     cmake [-D TREE=<checkout>] -P layering.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -17,7 +17,8 @@ set(grid_may_include root mesh grid)
 set(field_may_include root field)
 set(occlusion_may_include root field occlusion)
 set(render_may_include root mesh grid field occlusion render)
-set(apps_may_include root mesh grid field occlusion render)
+set(accuracy_may_include root mesh grid field occlusion render accuracy)
+set(apps_may_include root mesh grid field occlusion render accuracy)
 # Files that may include grid beside those.
 set(grid_also_in "^lib/alcove/field/(bricks|level_[a-z0-9_]+|sample_bricks)\\.(h|cpp)$")
 

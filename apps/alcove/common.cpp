@@ -11,13 +11,12 @@
 
 namespace alcove::cli {
 
-void add_common_options(CLI::App& verb, CommonOptions& options) {
+void add_run_options(CLI::App& verb, CommonOptions& options) {
     static const std::map<std::string_view, ProgressMode> modes{{"auto", ProgressMode::automatic},
                                                                 {"bar", ProgressMode::bar},
                                                                 {"plain", ProgressMode::plain},
                                                                 {"none", ProgressMode::none}};
     verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
-    verb.add_flag("--json", options.json, "Print the result as one JSON object on stdout");
     verb.add_option_function<std::string>(
             "--progress",
             [&options](const std::string& mode) {
@@ -30,6 +29,11 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
         ->option_text("MODE");
     verb.add_flag("--quiet", options.quiet, "Neither progress nor warnings");
     verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
+}
+
+void add_common_options(CLI::App& verb, CommonOptions& options) {
+    verb.add_flag("--json", options.json, "Print the result as one JSON object on stdout");
+    add_run_options(verb, options);
 }
 
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options) {

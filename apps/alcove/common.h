@@ -27,7 +27,10 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
 };
 
-/// Adds --threads, --json, --progress, --quiet, --version to a verb.
+/// Adds --threads, --progress, --quiet, --version to a verb.
+void add_run_options(CLI::App& verb, CommonOptions& options);
+
+/// Those and --json.
 void add_common_options(CLI::App& verb, CommonOptions& options);
 
 /// Prints warnings to stderr, a line each, unless quiet; where stderr takes nothing they are lost.
@@ -58,6 +61,7 @@ void add_bake(CLI::App& program);
 void add_render(CLI::App& program);
 void add_voxelize(CLI::App& program);
 void add_info(CLI::App& program);
+void add_measure(CLI::App& program);
 void add_methods(CLI::App& program);
 
 }

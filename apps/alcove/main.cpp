@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
         alcove::cli::add_bake(program);
         alcove::cli::add_render(program);
         alcove::cli::add_voxelize(program);
+        alcove::cli::add_measure(program);
         alcove::cli::add_info(program);
         alcove::cli::add_methods(program);
         program.parse(argc, argv);

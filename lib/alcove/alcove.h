@@ -75,3 +75,10 @@
 #include "alcove/render/renderer.h"
 #include "alcove/render/shading.h"
 #include "alcove/render/subject.h"
+
+#include "alcove/accuracy/error_figures.h"
+#include "alcove/accuracy/heat_map.h"
+#include "alcove/accuracy/measure.h"
+#include "alcove/accuracy/method_choice.h"
+#include "alcove/accuracy/pareto.h"
+#include "alcove/accuracy/report.h"

@@ -1,6 +1,7 @@
 # Headers for this source tree alone: not installed, and no public header may include them.
 # All other headers under lib/alcove are public.
 set(alcove_internal_headers
+    accuracy/chart.h
     atomic_file.h
     grid/band.h
     grid/level_set.h

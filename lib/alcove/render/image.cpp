@@ -153,7 +153,7 @@ void write_exr(const Image& image, const std::filesystem::path& file, const Imag
     write_file(file, stream.bytes());
 }
 
-void write_png(const Image& image, const std::filesystem::path& file, Pass pass) {
+std::string encode_png(const Image& image, Pass pass) {
     const DepthRange depths(image);
     std::vector<std::uint8_t> rgb(3 * image.pixels());
     for (std::size_t i = 0; i < image.pixels(); ++i) {
@@ -173,8 +173,13 @@ void write_png(const Image& image, const std::filesystem::path& file, Pass pass)
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::string bytes(size, '\0');
     if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr))
-        throw IoError(file.string() + ": cannot be encoded as PNG: " + png.message);
-    write_file(file, std::string_view(bytes).substr(0, size));
+        throw LimitError(std::string("the picture cannot be encoded as PNG: ") + png.message);
+    bytes.resize(size);
+    return bytes;
+}
+
+void write_png(const Image& image, const std::filesystem::path& file, Pass pass) {
+    write_file(file, encode_png(image, pass));
 }
 
 ImageSummary summarize_image(const std::filesystem::path& file) {

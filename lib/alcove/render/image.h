@@ -49,9 +49,12 @@ struct ImageHeader {
 /// whole or not at all. \throw IoError if the file cannot be written.
 void write_exr(const Image& image, const std::filesystem::path& file, const ImageHeader& header);
 
-/// Eight bits a channel, no alpha; written whole or not at all. Beauty and ao: sRGB over a light backdrop.
-/// Normal: each component from [−1, 1] to [0, 1], over the backdrop. Depth: near is white, far dark grey,
-/// nothing black. \throw IoError if the file cannot be written.
+/// The bytes of a PNG, eight bits a channel, no alpha. Beauty and ao: sRGB over a light backdrop. Normal: each
+/// component from [−1, 1] to [0, 1], over the backdrop. Depth: near is white, far dark grey, nothing black.
+/// \throw LimitError if the picture is too large for a PNG.
+std::string encode_png(const Image& image, Pass pass);
+
+/// encode_png() to a file, written whole or not at all. \throw IoError if the file cannot be written.
 void write_png(const Image& image, const std::filesystem::path& file, Pass pass);
 
 /// What an image file says of itself.
