@@ -43,7 +43,7 @@ struct Job {
 
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> words;
-    std::istringstream stream(text);
+    std::istringstream stream(text + ',');
     for (std::string word; std::getline(stream, word, ',');)
         words.push_back(word);
     return words;

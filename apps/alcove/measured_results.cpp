@@ -84,7 +84,8 @@ MeasuredResults::MeasuredResults(std::string file) : file_(std::move(file)) {
         return;
     try {
         std::ifstream input(file_);
-        for (const Json& result : Json::parse(input).at("measurements"))
+        const Json whole = Json::parse(input);
+        for (const Json& result : whole.at("measurements"))
             results_.push_back({result.at("asked"), measurement_of(result)});
     } catch (const Json::exception&) {
         throw InputError(file_ + ": is there and holds no measurements to go on with: name another file");

@@ -19,6 +19,7 @@ const std::vector<Verb> verbs{
       "--ground", "--up"}},
     {"voxelize", {"--voxel", "--band", "--radius"}},
     {"render", {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov"}},
+    {"measure", {"--radius", "--voxel", "--methods", "--report"}},
     {"info", {}},
 };
 

@@ -72,7 +72,7 @@ class Labels {
     void keep_free(double x, double y) { taken_.push_back({x - 5, y, 10}); }
 
     std::string place(double x, double y, const std::string& text) {
-        const double length = 5.8 * static_cast<double>(text.size());
+        const double length = 6.4 * static_cast<double>(text.size());
         for (const Place& place :
              {Place{x + 8, y + 4, length}, Place{x - 8 - length, y + 4, length},
               Place{x - length / 2, y - 9, length}, Place{x - length / 2, y + 17, length},
@@ -85,7 +85,9 @@ class Labels {
                 std::any_of(taken_.begin(), taken_.end(), [&](const Place& t) { return t.meets(middle); }))
                 continue;
             taken_.push_back(middle);
-            return fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", place.x, place.y, escaped(text));
+            return fmt::format(
+                R"(<text x="{:.1f}" y="{:.1f}" paint-order="stroke" stroke="#fff" stroke-width="3">{}</text>)",
+                place.x, place.y, escaped(text));
         }
         return "";
     }
@@ -108,8 +110,9 @@ std::string frame_of_axes(const Chart& chart, const Axis& x, const Axis& y) {
                         top, right - left, bottom - top);
     text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle" font-size="13">{}</text>)",
                         (left + right) / 2, height - 12, escaped(chart.x_title));
-    text += fmt::format(R"(<text transform='translate(18 {}) rotate(-90)' text-anchor="middle" font-size="13">{}</text>)",
-                        (top + bottom) / 2, escaped(chart.y_title));
+    text += fmt::format(
+        R"(<text transform='translate(18 {}) rotate(-90)' text-anchor="middle" font-size="13">{}</text>)",
+        (top + bottom) / 2, escaped(chart.y_title));
     return text;
 }
 

@@ -63,7 +63,7 @@ auto grouped_by(const Group& group, const F& what) {
 }
 
 std::string percent(double length) {
-    return std::isinf(length) ? "any" : fmt::format("{:.3g} %", 100.0 * length);
+    return std::isinf(length) ? "inf" : fmt::format("{:.3g} %", 100.0 * length);
 }
 
 std::string note_of(const Measurement& m) {
@@ -71,11 +71,21 @@ std::string note_of(const Measurement& m) {
                        m.voxel > 0.0f ? ", voxel " + percent(m.voxel) : "");
 }
 
-std::vector<std::size_t> front_of(const Group& group) {
+using Cost = double (*)(const Measurement&);
+
+double total(const Measurement& m) {
+    return m.seconds();
+}
+
+double occlusion(const Measurement& m) {
+    return m.occlusion_seconds;
+}
+
+std::vector<std::size_t> front_of(const Group& group, Cost cost) {
     std::vector<CostAndError> choices;
     choices.reserve(group.size());
     for (const Measurement* m : group)
-        choices.push_back({m->seconds(), m->error.rmse});
+        choices.push_back({cost(*m), m->error.rmse});
     return pareto_front(choices);
 }
 
@@ -126,7 +136,8 @@ class Page {
             double squares = 0.0;
             for (const Measurement* m : same) {
                 squares += m->error.rmse * m->error.rmse;
-                sum.occlusion_seconds += m->seconds();
+                sum.grid_seconds += m->grid_seconds + m->tree_seconds;
+                sum.occlusion_seconds += m->occlusion_seconds;
             }
             sum.error.rmse = std::sqrt(squares / static_cast<double>(same.size()));
             sums.push_back(std::move(sum));
@@ -143,8 +154,9 @@ class Page {
     std::string charts(const Group& group) const {
         std::string text;
         for (const auto& [radius, same] : grouped_by(group, radius_of))
-            text +=
-                fmt::format("<h3>Error and time at a radius of {}</h3>\n{}", percent(radius), times(same));
+            text += fmt::format("<h3>Error and time at a radius of {}</h3>\n{}{}", percent(radius),
+                                times(same, total, "CPU seconds, all"),
+                                times(same, occlusion, "CPU seconds, occlusion alone"));
         Group gridded;
         std::copy_if(group.begin(), group.end(), std::back_inserter(gridded),
                      [](const Measurement* m) { return m->voxel > 0.0f; });
@@ -161,11 +173,11 @@ class Page {
     }
 
     /// Error against seconds; a method's numbers of samples are joined.
-    std::string times(const Group& group) const {
-        Chart chart{.x_title = "CPU seconds", .y_title = "RMSE"};
-        const std::vector<std::size_t> front = front_of(group);
+    std::string times(const Group& group, Cost cost, const std::string& title) const {
+        Chart chart{.x_title = title, .y_title = "RMSE"};
+        const std::vector<std::size_t> front = front_of(group, cost);
         for (const std::size_t i : front)
-            chart.front.emplace_back(group[i]->seconds(), group[i]->error.rmse);
+            chart.front.emplace_back(cost(*group[i]), group[i]->error.rmse);
         const bool many_voxels = grouped_by(group, voxel_of).size() > 2;
         for (const auto& [method, own] : grouped_by(group, [](const Measurement& m) { return m.method; }))
             for (const auto& [voxel, same] : grouped_by(own, voxel_of)) {
@@ -176,7 +188,7 @@ class Page {
                 std::sort(sorted.begin(), sorted.end(),
                           [](const auto* a, const auto* b) { return a->samples < b->samples; });
                 for (const Measurement* m : sorted)
-                    series.points.push_back({m->seconds(), m->error.rmse, m->label(), note_of(*m)});
+                    series.points.push_back({cost(*m), m->error.rmse, m->label(), note_of(*m)});
                 chart.series.push_back(std::move(series));
             }
         return svg(chart);
@@ -203,7 +215,7 @@ class Page {
     }
 
     static std::string table(const Group& group) {
-        const std::vector<std::size_t> front = front_of(group);
+        const std::vector<std::size_t> front = front_of(group, total);
         std::vector<std::size_t> order(group.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::sort(order.begin(), order.end(),
