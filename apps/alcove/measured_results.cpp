@@ -22,6 +22,7 @@ Json json_of(const Measurement& m) {
               {"samples", m.samples},
               {"radius", std::isinf(m.radius) ? Json("inf") : Json(m.radius)},
               {"voxel", m.voxel},
+              {"asked_voxel", m.asked_voxel},
               {"levels", m.levels},
               {"active_voxels", m.active_voxels},
               {"compared", m.error.count},
@@ -54,6 +55,7 @@ Measurement measurement_of(const Json& json) {
     const Json& radius = json.at("radius");
     m.radius = radius.is_string() ? std::numeric_limits<float>::infinity() : radius.get<float>();
     json.at("voxel").get_to(m.voxel);
+    json.at("asked_voxel").get_to(m.asked_voxel);
     json.at("levels").get_to(m.levels);
     json.at("active_voxels").get_to(m.active_voxels);
     json.at("compared").get_to(m.error.count);

@@ -13,7 +13,7 @@ Measurement made_up(const std::string& mesh, const std::string& method, int samp
     m.mesh = mesh, m.method = method, m.samples = samples;
     m.occlusion_seconds = seconds;
     m.error.rmse = rmse;
-    m.voxel = voxel, m.radius = radius;
+    m.voxel = m.asked_voxel = voxel, m.radius = radius;
     return m;
 }
 

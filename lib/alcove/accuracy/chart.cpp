@@ -195,7 +195,8 @@ std::string svg(const Chart& chart) {
         if (series.joined && series.points.size() > 1)
             text += fmt::format(R"(<path d="{}" fill="none" stroke="{}" opacity="0.6"/>)", path,
                                 colors[series.style % colors.size()]);
-        add_to_legend(marker(series.style, right + 18, line), series.name);
+        if (!series.name.empty())
+            add_to_legend(marker(series.style, right + 18, line), series.name);
     }
     for (const ChartSeries& series : chart.series)
         for (const ChartPoint& point : series.points)

@@ -15,7 +15,7 @@ struct ChartPoint {
 };
 
 struct ChartSeries {
-    std::string name;
+    std::string name;      ///< in the legend; may be empty
     std::size_t style = 0; ///< colour and marker
     bool joined = false;   ///< by a line, in order
     std::vector<ChartPoint> points{};

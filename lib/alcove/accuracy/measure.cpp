@@ -152,7 +152,7 @@ MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, con
     std::size_t active = 0;
     for (const LevelSet& level : stack.levels)
         active += level.active_voxels;
-    return {std::move(field), active, stack.bytes(), meter.seconds(), ProcessMeter::peak_rss_bytes()};
+    return {std::move(field), voxel, active, stack.bytes(), meter.seconds(), ProcessMeter::peak_rss_bytes()};
 }
 
 std::string Measurement::label() const {
@@ -183,6 +183,7 @@ Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const Measured
 
     if (grid) {
         m.voxel = grid->field.resolution();
+        m.asked_voxel = grid->asked_voxel;
         m.levels = grid->field.levels().size();
         m.active_voxels = grid->active_voxels;
         m.grid_bytes = grid->bytes;

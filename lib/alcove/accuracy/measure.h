@@ -52,6 +52,7 @@ Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& opt
 /// A field, made once for all methods that probe it.
 struct MeasuredGrid {
     LevelStack field;
+    float asked_voxel;                ///< unit space; 0 where it was chosen
     std::size_t active_voxels, bytes; ///< of all levels
     double seconds;                   ///< of voxelizing and reading the grids
     std::size_t peak_rss_bytes;       ///< meanwhile
@@ -64,8 +65,9 @@ struct Measurement {
     std::string mesh, method;
     int samples = 0; ///< as of MethodChoice
     std::size_t vertices = 0, triangles = 0;
-    float radius = 0.0f; ///< unit space; may be infinite
-    float voxel = 0.0f;  ///< finest, unit space; 0 where no grid was asked
+    float radius = 0.0f;      ///< unit space; may be infinite
+    float voxel = 0.0f;       ///< finest, unit space; 0 where no grid was asked
+    float asked_voxel = 0.0f; ///< unit space; 0 where it was chosen
     std::size_t levels = 0, active_voxels = 0;
     ErrorFigures error;
     double grid_seconds = 0.0;      ///< 0 where no grid was asked

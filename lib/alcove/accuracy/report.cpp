@@ -89,6 +89,13 @@ std::vector<std::size_t> front_of(const Group& group, Cost cost) {
     return pareto_front(choices);
 }
 
+Group with_grid(const Group& group) {
+    Group gridded;
+    std::copy_if(group.begin(), group.end(), std::back_inserter(gridded),
+                 [](const Measurement* m) { return m->voxel > 0.0f; });
+    return gridded;
+}
+
 class Page {
   public:
     explicit Page(std::span<const Measurement> measurements) {
@@ -121,12 +128,13 @@ class Page {
   private:
     static float radius_of(const Measurement& m) { return m.radius; }
     static float voxel_of(const Measurement& m) { return m.voxel; }
+    static float asked_voxel_of(const Measurement& m) { return m.asked_voxel; }
 
     /// The same settings on all meshes as one.
     std::string together() const {
         std::vector<Measurement> sums;
         const auto settings = [](const Measurement& m) {
-            return std::tuple(m.method, m.samples, m.radius, m.voxel);
+            return std::tuple(m.method, m.samples, m.radius, m.asked_voxel);
         };
         for (const auto& [key, same] : grouped_by(all_, settings)) {
             if (same.size() < meshes_.size())
@@ -157,17 +165,15 @@ class Page {
             text += fmt::format("<h3>Error and time at a radius of {}</h3>\n{}{}", percent(radius),
                                 times(same, total, "CPU seconds, all"),
                                 times(same, occlusion, "CPU seconds, occlusion alone"));
-        Group gridded;
-        std::copy_if(group.begin(), group.end(), std::back_inserter(gridded),
-                     [](const Measurement* m) { return m->voxel > 0.0f; });
-        if (grouped_by(gridded, voxel_of).size() > 1)
+        const Group gridded = with_grid(group);
+        if (grouped_by(gridded, asked_voxel_of).size() > 1)
             for (const auto& [radius, same] : grouped_by(gridded, radius_of))
                 text += fmt::format("<h3>Error and voxel at a radius of {}</h3>\n{}", percent(radius),
                                     lines(same, "voxel, % of the diagonal", voxel_of));
         if (grouped_by(group, radius_of).size() > 1)
-            for (const auto& [voxel, same] : grouped_by(group, voxel_of))
+            for (const auto& [voxel, same] : grouped_by(group, asked_voxel_of))
                 text += fmt::format("<h3>Error and radius, {}</h3>\n{}",
-                                    voxel > 0.0f ? "voxel " + percent(voxel) : "without grid",
+                                    voxel > 0.0f ? "voxel " + percent(voxel) : "no voxel asked for",
                                     lines(same, "radius, % of the diagonal", radius_of));
         return text;
     }
@@ -178,17 +184,17 @@ class Page {
         const std::vector<std::size_t> front = front_of(group, cost);
         for (const std::size_t i : front)
             chart.front.emplace_back(cost(*group[i]), group[i]->error.rmse);
-        const bool many_voxels = grouped_by(group, voxel_of).size() > 2;
+        const bool many_voxels = grouped_by(with_grid(group), asked_voxel_of).size() > 1;
         for (const auto& [method, own] : grouped_by(group, [](const Measurement& m) { return m.method; }))
             for (const auto& [voxel, same] : grouped_by(own, voxel_of)) {
-                ChartSeries series = series_of(*same.front(), method);
-                if (voxel > 0.0f && many_voxels)
-                    series.name += ", voxel " + percent(voxel);
+                const bool named = same.front()->voxel == own.front()->voxel;
+                ChartSeries series = series_of(*same.front(), named ? method : "");
+                const std::string suffix = many_voxels && voxel > 0.0f ? ", " + percent(voxel) : "";
                 Group sorted = same;
                 std::sort(sorted.begin(), sorted.end(),
                           [](const auto* a, const auto* b) { return a->samples < b->samples; });
                 for (const Measurement* m : sorted)
-                    series.points.push_back({cost(*m), m->error.rmse, m->label(), note_of(*m)});
+                    series.points.push_back({cost(*m), m->error.rmse, m->label() + suffix, note_of(*m)});
                 chart.series.push_back(std::move(series));
             }
         return svg(chart);
