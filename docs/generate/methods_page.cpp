@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -44,25 +43,6 @@ class Scene {
   private:
     std::map<float, Result> truths_;
 };
-
-struct Error {
-    double rmse = 0.0, bias = 0.0, deviation = 0.0; ///< deviation: of the truth
-};
-
-Error compare(std::span<const float> values, std::span<const float> truth) {
-    double squares = 0.0, sum = 0.0, mean = 0.0, mean_square = 0.0;
-    const auto count = static_cast<double>(truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-        const double difference = double(values[i]) - truth[i];
-        squares += difference * difference;
-        sum += difference;
-        mean += truth[i];
-        mean_square += double(truth[i]) * truth[i];
-    }
-    mean /= count;
-    return {std::sqrt(squares / count), sum / count,
-            std::sqrt(std::max(0.0, mean_square / count - mean * mean))};
-}
 
 /// The scene of "SDF Ambient Occlusion — Detailed Reference", in the document's own units.
 class DocumentsScene : public Scene {
@@ -189,7 +169,7 @@ void write_page(const std::filesystem::path& meshes, const std::filesystem::path
             }
             const float radius = scene->radius(method);
             Result result = scene->result(method, {.radius = radius});
-            const Error error = compare(result.values, scene->truth(radius).values);
+            const ErrorFigures error = compare(result.values, scene->truth(radius).values);
             cells += fmt::format(" {:.3f} ({:+.3f}; {:.3f}) |", error.rmse, error.bias, error.deviation);
             tiles.push_back(std::move(result.image));
         }
