@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Runs all tests under the address and undefined-behaviour sanitizers: a quarter of an hour, so not part of every check.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tools/setup.sh
+cmake --preset asan -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+cmake --build --preset asan
+ctest --preset asan --parallel "$(nproc)"
