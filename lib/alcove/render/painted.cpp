@@ -15,6 +15,10 @@ struct Canvas {
     Canvas(int w, int h)
         : width(w), height(h), depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), far_depth),
           value(depth.size()), normal(depth.size(), Vec3(0.0f)) {}
+
+    std::size_t place(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    }
 };
 
 double cross(const Vec3d& a, const Vec3d& b) {
@@ -40,8 +44,7 @@ void draw(const std::array<Vec3d, 3>& corners, const std::array<float, 3>& value
             // Across the image the inverse of the depth is linear.
             const double weights[] = {u / a.z, v / b.z, w / c.z};
             const double depth = 1.0 / (weights[0] + weights[1] + weights[2]);
-            const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.width) +
-                            static_cast<std::size_t>(x);
+            const std::size_t at = canvas.place(x, y);
             if (depth >= canvas.depth[at])
                 continue;
             canvas.depth[at] = static_cast<float>(depth);
@@ -56,8 +59,9 @@ Image resolve(const Canvas& canvas, int samples) {
     const float share = 1.0f / static_cast<float>(samples * samples);
     for (int y = 0; y < canvas.height; ++y)
         for (int x = 0; x < canvas.width; ++x) {
-            const auto from = static_cast<std::size_t>(y * canvas.width + x);
-            const auto to = static_cast<std::size_t>(y / samples * image.width + x / samples);
+            const std::size_t from = canvas.place(x, y);
+            const auto to = static_cast<std::size_t>(y / samples) * static_cast<std::size_t>(image.width) +
+                            static_cast<std::size_t>(x / samples);
             if (canvas.depth[from] >= far_depth)
                 continue;
             image.alpha[to] += share;
