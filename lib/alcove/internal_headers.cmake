@@ -22,5 +22,7 @@ set(alcove_internal_headers
     mesh/ply_parse.h
     mesh/text_scanner.h
     mesh/weld.h
+    occlusion/linear_model.h
     occlusion/neighbourhood.h
+    occlusion/shared_rays.h
     render/camera_rays.h)

@@ -6,24 +6,26 @@
 
 namespace alcove {
 
-/// Every surfel shoots `rays` rays at the mesh, as Exact does, and takes part in the answers of its neighbours
-/// along a Morton curve. In three steps:
+/// Every surfel shoots `rays` rays at the mesh, as Exact does, and takes part in the answers of the others. In
+/// four steps:
 ///
 ///  1. The Morton rank shifts the lattice of directions by an additive recurrence, so that the rays of
 ///     neighbours together are low-discrepancy too: v_i. M. Roberts, "The Unreasonable Effectiveness of
 ///     Quasirandom Sequences" (2018).
-///  2. Probes along the normal, d(p + h n)/h at h = R·2^(−0.75 k), k = 0..7, tell what surroundings a surfel
-///     has: with g their mean, v ≈ a + b (g_i − g) is fitted by least squares, weighted by distance, by
-///     normals (nothing beyond a right angle) and by the difference of the probes, so that neither the other
-///     side of a sheet nor the other face of a crease has a say. A. Buades et al., "A review of image
-///     denoising algorithms" (2005); local regression: W. S. Cleveland (1979).
-///  3. ao = a + max(0, 1 − σ²/s²) (v − a), with s² the weighted mean of the squared residuals and σ² what the
-///     noise of the rays explains of it: what the fit cannot tell, the surfel's own rays do. W. James, C. Stein
+///  2. The ten probes of Calibrated, what it makes of them and the square of that predict v by a linear model
+///     m, fitted to the rays of all surfels: A. Hoerl, R. Kennard, "Ridge regression" (1970).
+///  3. What the model leaves, r = v − m, is shared between neighbours, weighted by distance, by normals (nothing
+///     beyond a right angle) and by the difference of their probes, so that neither the other side of a sheet
+///     nor the other face of a crease has a say: A. Buades et al., "A review of image denoising algorithms"
+///     (2005). With w the weights, σ² the variance of one surfel's rays and τ² that of the model,
+///     r̄ = Σ w r / (Σ w + σ²/τ²): G. Matheron, "Principles of geostatistics" (1963).
+///  4. ao = a + max(0, 1 − 2σ²/s²) (v − a), with a = m + r̄ and s² the weighted mean of (r_i − r̄)²: what the
+///     neighbours cannot tell, the surfel's own rays do. W. James, C. Stein, "Estimation with quadratic loss"
 ///     (1961). As rays grow, σ goes to 0 and the weights reach less far: it tends to Exact.
 ///
-/// Bent normals likewise, by their deviation from the normal.
+/// Bent normals by their deviation from the normal, regressed on m in the neighbourhood: W. S. Cleveland (1979).
 ///
-/// Surfels alike in position and normal have the same values. Cost: 8 map() calls and `rays` rays a surfel,
+/// Surfels alike in position and normal have the same values. Cost: 10 map() calls and `rays` rays a surfel,
 /// and 0.2 µs to share them.
 struct Guided {
     float radius = 0.1f; ///< > 0; probes go to min(radius, 1), rays may be infinite
@@ -32,12 +34,14 @@ struct Guided {
 
     static constexpr std::string_view name = "guided";
     static constexpr std::string_view summary =
-        "few rays on the mesh, shared between neighbours by a regression on the field's probes";
-    static constexpr std::string_view formula = "a + max(0, 1 - sigma^2/s^2) (1/N sum V(w_i) - a), a fitted";
-    static constexpr std::string_view source = "after Buades et al. (2005), Cleveland (1979)";
-    static constexpr std::string_view cost = "8, and rays (3) on the mesh";
-    static constexpr std::string_view good = "the error of ten times as many rays on dense meshes";
-    static constexpr std::string_view bad = "smooths on coarse ones; needs the mesh and a grid";
+        "few rays on the mesh, shared by a regression on the field's probes and between neighbours";
+    static constexpr std::string_view formula =
+        "a + max(0, 1 - 2 sigma^2/s^2) (v - a), v = 1/N sum V(w_i), a = m + mean of v - m nearby, m fitted";
+    static constexpr std::string_view source = "after Hoerl and Kennard (1970), Buades et al. (2005)";
+    static constexpr std::string_view cost = "10, and rays (3) on the mesh";
+    static constexpr std::string_view good = "the error of ten times as many rays";
+    static constexpr std::string_view bad =
+        "smooths what neither probes nor neighbours tell; needs the mesh and a grid";
     static constexpr bool traces_rays = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 

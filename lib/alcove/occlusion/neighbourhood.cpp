@@ -19,7 +19,7 @@ void weigh_all(const Curve& curve, std::size_t center, std::size_t first, float 
     const auto at_center = [&](const float* values) HWY_ATTR { return hn::Set(d, values[center]); };
     const auto x = at_center(curve.x), y = at_center(curve.y), z = at_center(curve.z);
     const auto nx = at_center(curve.nx), ny = at_center(curve.ny), nz = at_center(curve.nz);
-    const auto inverse_reach2 = hn::Set(d, 1.0f / (reach * reach)), half = hn::Set(d, 0.5f);
+    const auto inverse_reach2 = hn::Set(d, 1.0f / (reach * reach)), sharpness = hn::Set(d, 0.4f);
     for (std::size_t k = 0; k < Curve::window; k += hn::Lanes(d)) {
         const std::size_t i = first + k;
         const auto dx = hn::Sub(hn::LoadU(d, curve.x + i), x), dy = hn::Sub(hn::LoadU(d, curve.y + i), y),
@@ -35,9 +35,8 @@ void weigh_all(const Curve& curve, std::size_t center, std::size_t first, float 
             const auto difference = hn::Sub(hn::LoadU(d, probe + i), hn::Set(d, probe[center]));
             difference2 = hn::MulAdd(difference, difference, difference2);
         }
-        const auto alike = hn::Max(hn::NegMulAdd(difference2, half, one), zero);
-        const auto cosine2 = hn::Mul(cosine, cosine), cosine4 = hn::Mul(cosine2, cosine2);
-        const auto root = hn::Mul(hn::Mul(near, alike), cosine4);
+        const auto alike = hn::Max(hn::NegMulAdd(difference2, sharpness, one), zero);
+        const auto root = hn::Mul(hn::Mul(near, alike), hn::Mul(cosine, cosine));
         hn::StoreU(hn::Mul(root, root), d, weights + k);
     }
 }

@@ -9,17 +9,16 @@ namespace alcove {
 /// Surfels along a curve, as arrays of at least `window` values.
 struct Curve {
     static constexpr std::size_t window = 192; ///< neighbours on the curve that share their rays
-    static constexpr std::size_t probes = 8;
+    static constexpr std::size_t probes = 10;
 
     const float *x, *y, *z;
     const float *nx, *ny, *nz;              ///< unit, or zero for one without a say
-    std::array<const float*, probes> probe; ///< in [−1, 1]
-    const float* guide;                     ///< their mean
+    std::array<const float*, probes> probe; ///< what each of them tells
 };
 
 /// Weights of the `window` surfels from `first` on, as neighbours of surfel `center`: products of
 ///
-///     (1 − |p_i − p|²/reach²)₊²     (n_i·n)₊⁸     (1 − Σ (probe_i − probe)²/2)₊²
+///     (1 − |p_i − p|²/reach²)₊²     (n_i·n)₊⁴     (1 − 0.4 Σ (probe_i − probe)²)₊²
 void weigh(const Curve& curve, std::size_t center, std::size_t first, float reach, float* weights);
 
 /// Σ w, Σ w g, Σ w g²; Σ w v, Σ w v g, Σ w v², with g relative to `origin`.
