@@ -1,9 +1,5 @@
 #include "bake_input.h"
-#include "common.h"
-#include "method_options.h"
-#include "parts.h"
-#include "surroundings.h"
-#include "voxelized.h"
+#include "baking.h"
 
 #include "alcove/errors.h"
 #include "alcove/grid/grid_io.h"
@@ -26,6 +22,7 @@ struct BakeOptions {
     MethodRequest method;
     BakeInputRequest source;
     SurroundingsRequest surroundings;
+    PlanningRequest planning;
     std::string output, attributes = "ao", normals = "auto", color, color_encoding = "srgb", write_grid;
 };
 
@@ -97,14 +94,23 @@ bool wants_colors(const std::string& asked, ChannelSet wanted, const Mesh& mesh)
     return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
 }
 
-void run(const BakeOptions& options) {
-    const ThreadLimit limit(options.common.threads);
-    const Method& method = parse_method(options.method.method);
-    const ChannelSet wanted = parse_attributes(options.attributes);
-    Settings settings = parse_settings(options.method, method, wanted);
-    const Needs needs = needs_of(method, wanted);
-    const NormalSource normals = parse_normals(options.normals);
-    const ColorEncoding encoding = parse_encoding(options.color_encoding);
+BakeTask parse_task(const BakeOptions& options) {
+    BakeTask task;
+    task.wanted = parse_attributes(options.attributes);
+    task.normals = parse_normals(options.normals);
+    task.planning = options.planning;
+    task.seed = options.method.seed.value_or(0);
+    if (!options.planning.error)
+        task.method = &parse_method(options.method.method);
+    else if (!task.wanted.has(Channel::ao))
+        throw UsageError("--error is that of ao: it needs ao among the --attributes");
+    const MethodRequest seeded{.seed = options.method.seed};
+    task.settings = task.method ? parse_settings(options.method, *task.method, task.wanted)
+                                : parse_settings(seeded, find_method("exact"), task.wanted);
+    return task;
+}
+
+void check_output(const BakeOptions& options, ChannelSet wanted) {
     const bool to_obj = extension(options.output) == ".obj";
     if (to_obj && !wanted.without(Channel::ao).empty())
         throw UsageError(options.output + ": an .obj holds ao alone, as colours: write a .ply for " +
@@ -123,27 +129,12 @@ void run(const BakeOptions& options) {
         check_grid_output(options.write_grid);
     if (!options.write_grid.empty() && options.source.self)
         throw UsageError("--self makes a grid for each part, --write-grid keeps one: leave out either");
+}
 
-    nlohmann::ordered_json seconds;
-    GridRequest grid_request = options.grid;
-    grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
-        return channel.inside && wanted.has(channel.channel);
-    });
-    VoxelizedMesh input = read_bake_input(
-        options.source, grid_request, needs.field || !options.write_grid.empty(), options.common, seconds);
-    Mesh& mesh = input.mesh;
-    Stopwatch watch;
-    const Surroundings surroundings(options.surroundings, needs, input);
-    std::optional<Occluders> whole;
-    if (!options.source.self)
-        whole = surroundings.around(mesh, input.triangles, input.stack, input.frame);
-    if (!options.write_grid.empty())
-        write_grids(input.stack, options.write_grid);
-    seconds["grid"] = seconds["grid"].get<double>() + watch.lap();
-
-    if (normals == NormalSource::file && mesh.normals.empty())
-        throw InputError(options.source.input + ": has no normals of its own: use --normals area");
-    const std::vector<Surfel> surfels = make_surfels(mesh, input.triangles, input.frame, normals);
+std::vector<Surfel> surfels_of(VoxelizedMesh& input, NormalSource normals) {
+    if (normals == NormalSource::file && input.mesh.normals.empty())
+        throw InputError(input.file + ": has no normals of its own: use --normals area");
+    std::vector<Surfel> surfels = make_surfels(input.mesh, input.triangles, input.frame, normals);
     const auto bare =
         std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
     if (bare > 0)
@@ -151,32 +142,26 @@ void run(const BakeOptions& options) {
             fmt::format("{} of {} vertices have no normal (no face uses them, or their faces "
                         "cancel) and got ao = 1",
                         grouped(static_cast<std::size_t>(bare)), grouped(surfels.size())));
-    settings.radius = input.radius;
-    PartsBake baked;
-    {
-        ProgressMeter meter(options.common.progress_mode(), "baking");
-        if (whole)
-            baked = {bake_channels(surfels, *whole, method, settings, wanted, std::ref(meter)),
-                     facts_of(input.stack)};
-        else
-            baked = bake_parts(input, surroundings, method, settings, wanted, normals, std::ref(meter));
-    }
-    auto& [values, grid, grid_seconds] = baked;
-    seconds["grid"] = seconds["grid"].get<double>() + grid_seconds;
-    seconds["occlusion"] = watch.lap() - grid_seconds;
+    return surfels;
+}
 
-    const double radius = double(input.radius) * input.frame.diagonal;
+/// Puts the values on the mesh, and writes it.
+void write_baked(const BakeOptions& options, ChannelSet wanted, VoxelizedMesh& input, Baked& baked) {
+    const bool to_obj = extension(options.output) == ".obj";
+    Mesh& mesh = input.mesh;
+    ChannelValues& values = baked.values;
     WriteOptions writing;
-    writing.comments.push_back(
-        fmt::format("alcove {}: {} by {}, radius {:.6g}, {}", ALCOVE_VERSION, names_of(wanted), method.name,
-                    radius, grid.levels > 0 ? fmt::format("voxel {:.6g}", grid.voxel) : grid.text()));
+    writing.comments.push_back(fmt::format(
+        "alcove {}: {} by {}, radius {:.6g}, {}", ALCOVE_VERSION, names_of(wanted), baked.choice.label(),
+        double(input.radius) * input.frame.diagonal,
+        baked.grid.levels > 0 ? fmt::format("voxel {:.6g}", baked.grid.voxel) : baked.grid.text()));
     const bool colored = wants_colors(options.color, wanted, mesh);
     if (!colored && to_obj)
         throw UsageError(options.output +
                          ": an .obj holds occlusion as colours alone, and the input has its own: add "
                          "--color ao to replace them, or write a .ply");
     if (colored)
-        writing.colors = grey_colors(values[Channel::ao], encoding);
+        writing.colors = grey_colors(values[Channel::ao], parse_encoding(options.color_encoding));
     if (!to_obj) {
         if (colored)
             mesh.set_attribute({"quality", 1, values[Channel::ao]});
@@ -184,28 +169,78 @@ void run(const BakeOptions& options) {
     }
     for (std::string& lost : write_mesh(mesh, options.output, writing))
         input.warnings.push_back(std::move(lost));
-    seconds["write"] = watch.lap();
+}
 
-    print_warnings(input.warnings, options.common);
+void print_result(const BakeOptions& options, ChannelSet wanted, const VoxelizedMesh& input,
+                  const Baked& baked, std::size_t grid_bytes, const nlohmann::ordered_json& seconds) {
+    const auto or_null = [](bool there, const auto& value) {
+        return there ? nlohmann::ordered_json(value) : nullptr;
+    };
+    const double radius = double(input.radius) * input.frame.diagonal;
+    const bool has_grid = baked.grid.levels > 0;
     if (options.common.json)
         print_json({{"input", options.source.input},
                     {"output", options.output},
-                    {"vertices", mesh.vertex_count()},
-                    {"faces", mesh.face_count()},
+                    {"vertices", input.mesh.vertex_count()},
+                    {"faces", input.mesh.face_count()},
                     {"attributes", names_of(wanted)},
-                    {"method", method.name},
+                    {"method", baked.choice.method->name},
+                    {"samples", or_null(baked.choice.samples > 0, baked.choice.samples)},
                     {"radius", radius},
-                    {"voxel", grid.levels > 0 ? nlohmann::ordered_json(grid.voxel) : nullptr},
-                    {"levels", grid.levels},
-                    {"sign", grid.levels > 0 ? nlohmann::ordered_json(name_of(grid.sign)) : nullptr},
-                    {"grid_bytes", grid.bytes + surroundings.bytes()},
-                    {"estimated_rmse", nullptr},
+                    {"voxel", or_null(has_grid, baked.grid.voxel)},
+                    {"levels", baked.grid.levels},
+                    {"sign", or_null(has_grid, name_of(baked.grid.sign))},
+                    {"grid_bytes", grid_bytes},
+                    {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
                     {"seconds", seconds},
                     {"peak_rss_bytes", peak_rss_bytes()},
                     {"warnings", input.warnings}});
     else if (!options.common.quiet)
-        fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}\n", options.output, names_of(wanted),
-                   grouped(mesh.vertex_count()), method.name, radius, grid.text());
+        fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}{}\n", options.output, names_of(wanted),
+                   grouped(input.mesh.vertex_count()), baked.choice.label(), radius, baked.grid.text(),
+                   baked.rmse ? fmt::format(", RMSE about {:.2g}", *baked.rmse) : "");
+}
+
+void run(const BakeOptions& options) {
+    const ThreadLimit limit(options.common.threads);
+    BakeTask task = parse_task(options);
+    parse_encoding(options.color_encoding);
+    check_output(options, task.wanted);
+    nlohmann::ordered_json seconds;
+    GridRequest grid_request = options.grid;
+    grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
+        return channel.inside && task.wanted.has(channel.channel);
+    });
+    const bool needs_field = task.needs().field;
+    VoxelizedMesh input = read_bake_input(
+        options.source, grid_request, needs_field || !options.write_grid.empty(), options.common, seconds);
+    Stopwatch watch;
+    Surroundings surroundings(options.surroundings, input);
+    if (needs_field || !input.stack.levels.empty())
+        surroundings.voxelize(input);
+    if (!options.write_grid.empty())
+        write_grids(input.stack, options.write_grid);
+    const double other_grids = watch.lap();
+
+    task.settings.radius = input.radius;
+    const std::vector<Surfel> surfels = surfels_of(input, task.normals);
+    Baked baked;
+    {
+        ProgressMeter meter(options.common.progress_mode(), "baking");
+        if (!task.method)
+            baked = bake_by_plan(input, surroundings, task, surfels, options.common, std::ref(meter));
+        else if (options.source.self)
+            baked = bake_parts(input, surroundings, task, std::ref(meter));
+        else
+            baked = bake_whole(input, surroundings, task, surfels, std::ref(meter));
+    }
+    seconds["grid"] = seconds["grid"].get<double>() + other_grids + baked.grid_seconds;
+    seconds["occlusion"] = watch.lap() - baked.grid_seconds - baked.pilot_seconds;
+    seconds["pilot"] = baked.pilot_seconds;
+    write_baked(options, task.wanted, input, baked);
+    seconds["write"] = watch.lap();
+    print_warnings(input.warnings, options.common);
+    print_result(options, task.wanted, input, baked, baked.grid.bytes + surroundings.bytes(), seconds);
 }
 
 }
@@ -229,6 +264,7 @@ void add_bake(CLI::App& program) {
     verb->add_option("--normals", options->normals, "auto: the file's, else area-weighted; file; area")
         ->type_name("SOURCE")
         ->capture_default_str();
+    add_planning_options(*verb, options->planning);
     add_grid_options(*verb, options->grid);
     add_bake_input_options(*verb, options->source);
     add_surroundings_options(*verb, options->surroundings);
@@ -245,13 +281,17 @@ void add_bake(CLI::App& program) {
                  "  alcove bake scan.ply -o scan_ao.ply\n"
                  "  alcove bake part.stl -o part_ao.ply --radius 5% --rays 256\n"
                  "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n"
+                 "  alcove bake scan.ply -o scan_ao.ply --error 0.02\n"
                  "  alcove bake scan.ply -o masks.ply --attributes ao,convexity,bent_normal,thickness\n"
                  "  alcove bake chair.ply -o chair_ao.ply --ground --up 0,0,1 --occluder table.ply\n"
                  "  alcove bake kit.obj -o kit_ao.obj --self\n"
                  "  alcove bake level_set.vdb -o level_set_ao.ply --adaptivity 0.2\n"
                  "  alcove bake scan.ply -o scan_ao.ply --write-grid scan.vdb\n"
                  "  alcove bake scan.ply -o scan_ao.ply --grid scan.vdb --method classic\n");
-    verb->callback([options] { run(*options); });
+    verb->callback([options, verb] {
+        check_planning(options->planning, *verb);
+        run(*options);
+    });
 }
 
 }

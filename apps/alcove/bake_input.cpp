@@ -76,6 +76,7 @@ VoxelizedMesh read_grid_input(const BakeInputRequest& request, const GridRequest
     parse_length(grid.radius, "--radius"); // wrong ones are said before any work
     Stopwatch watch;
     VoxelizedMesh result;
+    result.file = request.input;
     if (!meshed) {
         result.mesh = read_mesh(request.input);
         result.warnings = result.mesh.warnings;

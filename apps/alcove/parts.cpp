@@ -1,10 +1,12 @@
-#include "parts.h"
+#include "baking.h"
 
+#include "alcove/accuracy/pilot.h"
 #include "alcove/mesh/parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace alcove::cli {
@@ -20,6 +22,29 @@ VoxelizeOptions options_of_part(const VoxelizeOptions& whole, float scale) {
     return options;
 }
 
+/// A share of those of the whole.
+std::size_t surfels_of_pilot(std::size_t part, std::size_t whole) {
+    return (PilotOptions{}.surfels * part + whole - 1) / whole;
+}
+
+/// What pilots of parts say of the whole.
+class PooledError {
+  public:
+    void add(double rmse, std::size_t surfels) {
+        squares_ += rmse * rmse * static_cast<double>(surfels);
+        surfels_ += surfels;
+    }
+    std::optional<double> rmse() const {
+        if (surfels_ == 0)
+            return {};
+        return std::sqrt(squares_ / static_cast<double>(surfels_));
+    }
+
+  private:
+    double squares_ = 0.0;
+    std::size_t surfels_ = 0;
+};
+
 bool has_area(const std::vector<Triangle>& triangles, const Mesh& mesh) {
     const std::vector<Vec3> normals = area_weighted_normals(mesh, triangles);
     return std::any_of(normals.begin(), normals.end(), [](const Vec3& n) { return n != Vec3(0.0f); });
@@ -27,14 +52,16 @@ bool has_area(const std::vector<Triangle>& triangles, const Mesh& mesh) {
 
 }
 
-PartsBake bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const Method& method,
-                     const Settings& settings, ChannelSet wanted, NormalSource normals,
-                     const Progress& progress) {
+Baked bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const BakeTask& task,
+                 const Progress& progress) {
     constexpr std::size_t most_warnings = 3;
-    const Needs needs = needs_of(method, wanted);
-    PartsBake result;
+    const bool with_pilot = task.planning.pilot && task.wanted.has(Channel::ao);
+    Needs needs = task.needs();
+    needs.rays = needs.rays || with_pilot;
+    Baked result{choice_of(*task.method, task.settings), {}, {}};
+    PooledError error;
     for (const ChannelInfo& channel : channels)
-        if (wanted.has(channel.channel))
+        if (task.wanted.has(channel.channel))
             result.values[channel.channel].assign(input.mesh.vertex_count() * channel.components,
                                                   channel.missing);
     std::vector<char> baked(input.mesh.vertex_count(), 0);
@@ -52,34 +79,43 @@ PartsBake bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, con
         GridStack stack;
         if (needs.field)
             stack = voxelize(mesh, triangles, options_of_part(input.options, scale));
-        const Occluders occluders = surroundings.around(mesh, triangles, stack, frame);
+        const Occluders occluders = surroundings.around(mesh, triangles, stack, frame, needs);
         result.grid_seconds += watch.lap();
         result.grid.include(facts_of(stack));
         for (const std::string& warning : stack.warnings)
             if (++warned <= most_warnings)
                 input.warnings.push_back(fmt::format("part {} of {}: {}", p + 1, parts.size(), warning));
 
-        Settings of_part = settings;
+        Settings of_part = task.settings;
         of_part.radius = input.radius * scale;
-        ChannelValues values = bake_channels(
-            make_surfels(mesh, triangles, frame, normals), occluders, method, of_part, wanted,
-            [&](double done) {
+        const std::vector<Surfel> surfels = make_surfels(mesh, triangles, frame, task.normals);
+        ChannelValues values =
+            bake_channels(surfels, occluders, *task.method, of_part, task.wanted, [&](double done) {
                 progress((static_cast<double>(finished) + done * static_cast<double>(vertices.size())) /
                          static_cast<double>(input.mesh.vertex_count()));
             });
+        if (with_pilot) {
+            watch.lap();
+            const Pilot pilot(surfels, occluders.rays(), of_part.radius,
+                              {.surfels = surfels_of_pilot(surfels.size(), input.mesh.vertex_count())});
+            if (!pilot.empty())
+                error.add(pilot.rmse(values[Channel::ao]), surfels.size());
+            result.pilot_seconds += watch.lap();
+        }
         for (float& thickness : values[Channel::thickness])
             thickness /= scale;
         finished += vertices.size();
         for (std::size_t i = 0; i < vertices.size(); ++i)
             if (!std::exchange(baked[vertices[i]], 1))
                 for (const ChannelInfo& channel : channels)
-                    if (wanted.has(channel.channel))
+                    if (task.wanted.has(channel.channel))
                         std::copy_n(values[channel.channel].data() + i * channel.components,
                                     channel.components,
                                     result.values[channel.channel].data() + vertices[i] * channel.components);
     }
     if (warned > most_warnings)
         input.warnings.push_back(fmt::format("{} more warnings of parts", warned - most_warnings));
+    result.rmse = error.rmse();
     return result;
 }
 

@@ -63,8 +63,7 @@ void add_surroundings_options(CLI::App& verb, SurroundingsRequest& request) {
         ->default_str("0,1,0");
 }
 
-Surroundings::Surroundings(const SurroundingsRequest& request, Needs needs, VoxelizedMesh& input)
-    : needs_(needs) {
+Surroundings::Surroundings(const SurroundingsRequest& request, VoxelizedMesh& input) {
     if (request.ground) {
         const Vec3d up = glm::normalize(request.up);
         double lowest = std::numeric_limits<double>::infinity();
@@ -75,10 +74,10 @@ Surroundings::Surroundings(const SurroundingsRequest& request, Needs needs, Voxe
             ground_ = Ground{up, lowest};
     }
     for (const std::string& file : request.occluders)
-        add_occluder(file, input, memory_limit / static_cast<double>(request.occluders.size()));
+        add_occluder(file, input);
 }
 
-void Surroundings::add_occluder(const std::string& file, VoxelizedMesh& input, double memory_limit) {
+void Surroundings::add_occluder(const std::string& file, VoxelizedMesh& input) {
     const auto warn = [&](const std::string& warning) { input.warnings.push_back(file + ": " + warning); };
     const Mesh whole = read_mesh(file);
     for (const std::string& warning : whole.warnings)
@@ -88,26 +87,35 @@ void Surroundings::add_occluder(const std::string& file, VoxelizedMesh& input, d
         warn("is too far away to occlude anything within the radius");
         return;
     }
-    Occluder occluder;
-    occluder.frame = frame_of(mesh.box());
-    occluder.triangles = triangulate(mesh).triangles;
-    occluder.mesh = std::move(mesh);
-    if (needs_.field) {
+    const Frame frame = frame_of(mesh.box());
+    std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    occluders_.push_back({file, std::move(mesh), std::move(triangles), frame});
+}
+
+void Surroundings::voxelize(VoxelizedMesh& input) {
+    for (Occluder& occluder : occluders_) {
         const GridStack stack =
-            voxelize_occluder(occluder.mesh, occluder.triangles, file, memory_limit, input);
+            voxelize_occluder(occluder.mesh, occluder.triangles, occluder.file,
+                              memory_limit / static_cast<double>(occluders_.size()), input);
         for (const std::string& warning : stack.warnings)
-            warn(warning);
-        bytes_ += stack.bytes();
+            input.warnings.push_back(occluder.file + ": " + warning);
+        occluder.bytes = stack.bytes();
         occluder.field = LevelStack(stack);
     }
-    occluders_.push_back(std::move(occluder));
+}
+
+std::size_t Surroundings::bytes() const {
+    std::size_t bytes = 0;
+    for (const Occluder& occluder : occluders_)
+        bytes += occluder.bytes;
+    return bytes;
 }
 
 Occluders Surroundings::around(const Mesh& mesh, std::span<const Triangle> triangles, const GridStack& stack,
-                               const Frame& frame) const {
-    if (!needs_.rays)
+                               const Frame& frame, Needs needs) const {
+    if (!needs.rays)
         return field_around(stack, frame);
-    if (!needs_.field)
+    if (!needs.field)
         return rays_around(mesh, triangles, frame);
     return {field_around(stack, frame), rays_around(mesh, triangles, frame)};
 }

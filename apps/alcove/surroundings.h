@@ -23,21 +23,28 @@ void add_surroundings_options(CLI::App& verb, SurroundingsRequest& request);
 /// In scene space, so that any unit space can be made part of it.
 class Surroundings {
   public:
-    /// Voxels are as large as those of the mesh, but from 1/512 to 1/32 of an occluder, as far as memory goes; what is too far away to occlude is left out. The ground is the plane through the lowest vertex. Warnings
-    /// go to `input`. \throw what reading and voxelizing throw.
-    Surroundings(const SurroundingsRequest& request, Needs needs, VoxelizedMesh& input);
+    /// Reads occluders; what is too far away to occlude is left out. The ground is the plane through the lowest
+    /// vertex. Warnings go to `input`. \throw what reading throws.
+    Surroundings(const SurroundingsRequest& request, VoxelizedMesh& input);
 
-    /// The mesh and its grid among them, in the unit space of `frame`.
+    /// Makes the grids of the occluders. Voxels are as large as those of the mesh, but from 1/512 to 1/32 of an
+    /// occluder, as far as memory goes. Warnings go to `input`. \throw what voxelizing throws.
+    void voxelize(VoxelizedMesh& input);
+
+    /// The mesh and its grid among them, in the unit space of `frame`: as a field, which takes voxelize() before,
+    /// as triangles, or both.
     Occluders around(const Mesh& mesh, std::span<const Triangle> triangles, const GridStack& stack,
-                     const Frame& frame) const;
-    std::size_t bytes() const { return bytes_; } ///< of the grids
+                     const Frame& frame, Needs needs) const;
+    std::size_t bytes() const; ///< of the grids
 
   private:
     struct Occluder {
+        std::string file;
         Mesh mesh;
         std::vector<Triangle> triangles;
         Frame frame;
-        std::optional<LevelStack> field;
+        std::size_t bytes = 0; ///< of its grids
+        std::optional<LevelStack> field{};
     };
     struct Ground {
         Vec3d up; ///< unit length
@@ -49,12 +56,10 @@ class Surroundings {
     };
     AnyField field_around(const GridStack& stack, const Frame& frame) const;
     RaySurface rays_around(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame) const;
-    void add_occluder(const std::string& file, VoxelizedMesh& input, double memory_limit);
+    void add_occluder(const std::string& file, VoxelizedMesh& input);
 
-    Needs needs_;
     std::vector<Occluder> occluders_;
     std::optional<Ground> ground_;
-    std::size_t bytes_ = 0;
 };
 
 }

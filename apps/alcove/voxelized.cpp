@@ -78,6 +78,7 @@ VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& requ
         throw UsageError(
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
     VoxelizedMesh result;
+    result.file = input;
     GridOptions& grid = result.options.grid;
     result.options.sign = parse_sign(request.sign);
     grid.outer_band = request.band;
@@ -96,21 +97,25 @@ VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& requ
     return result;
 }
 
+void make_stack(VoxelizedMesh& input, const CommonOptions& common) {
+    ProgressMeter meter(common.progress_mode(), "voxelizing");
+    VoxelizeOptions options = input.options;
+    options.progress = std::ref(meter);
+    try {
+        input.stack = voxelize(input.mesh, input.triangles, options);
+    } catch (const InputError& error) {
+        throw InputError(input.file + ": " + error.what());
+    } catch (const LimitError& error) {
+        throw LimitError(input.file + ": " + error.what());
+    }
+    input.warnings.insert(input.warnings.end(), input.stack.warnings.begin(), input.stack.warnings.end());
+}
+
 VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,
                                 const CommonOptions& common, nlohmann::ordered_json& seconds) {
     VoxelizedMesh result = read_to_voxelize(input, request, seconds);
     Stopwatch watch;
-    ProgressMeter meter(common.progress_mode(), "voxelizing");
-    VoxelizeOptions options = result.options;
-    options.progress = std::ref(meter);
-    try {
-        result.stack = voxelize(result.mesh, result.triangles, options);
-    } catch (const InputError& error) {
-        throw InputError(input + ": " + error.what());
-    } catch (const LimitError& error) {
-        throw LimitError(input + ": " + error.what());
-    }
-    result.warnings.insert(result.warnings.end(), result.stack.warnings.begin(), result.stack.warnings.end());
+    make_stack(result, common);
     seconds["grid"] = watch.lap();
     return result;
 }

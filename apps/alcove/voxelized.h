@@ -21,6 +21,7 @@ void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& 
 void add_grid_options(CLI::App& verb, GridRequest& request);
 
 struct VoxelizedMesh {
+    std::string file;
     Mesh mesh;
     std::vector<Triangle> triangles;
     Frame frame;
@@ -46,6 +47,10 @@ GridFacts facts_of(const GridStack& stack);
 /// All but the stack. Puts `read` into `seconds`. \throw UsageError, and what read_mesh() throws.
 VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& request,
                                nlohmann::ordered_json& seconds);
+
+/// Makes the stack; what there is to say of it goes to the warnings. \throw what voxelize() throws, naming the
+/// file.
+void make_stack(VoxelizedMesh& input, const CommonOptions& common);
 
 /// Puts `read` and `grid` into `seconds`. \throw UsageError, and what read_mesh() and voxelize() throw.
 VoxelizedMesh read_and_voxelize(const std::string& input, const GridRequest& request,

@@ -1,6 +1,7 @@
 #include "alcove/accuracy/measure.h"
 
 #include "alcove/accuracy/heat_map.h"
+#include "alcove/accuracy/subset.h"
 #include "alcove/errors.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
@@ -69,23 +70,6 @@ class CountingField {
     LevelStack field_;
     std::shared_ptr<std::atomic<std::size_t>> calls_ = std::make_shared<std::atomic<std::size_t>>(0);
 };
-
-/// Up to `most` of the items, evenly.
-std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t most) {
-    const std::size_t count = std::min(items.size(), most);
-    std::vector<std::uint32_t> chosen(count);
-    for (std::size_t i = 0; i < count; ++i)
-        chosen[i] = items[i * items.size() / count];
-    return chosen;
-}
-
-std::vector<Surfel> pick(std::span<const Surfel> surfels, std::span<const std::uint32_t> indices) {
-    std::vector<Surfel> picked;
-    picked.reserve(indices.size());
-    for (const std::uint32_t i : indices)
-        picked.push_back(surfels[i]);
-    return picked;
-}
 
 double map_calls_a_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, const MethodChoice& choice,
                           float radius) {

@@ -48,6 +48,15 @@ MethodChoice choose(const Method& method, std::optional<int> samples) {
     return choice;
 }
 
+MethodChoice choice_of(const Method& method, const Settings& settings) {
+    MethodChoice choice = choose(method);
+    if (const std::optional<ParameterInfo> parameter = samples_of(method))
+        for (const auto& [name, value] : settings.parameters)
+            if (name == parameter->name)
+                choice.samples = static_cast<int>(value);
+    return choice;
+}
+
 std::vector<MethodChoice> standard_choices() {
     std::vector<MethodChoice> choices;
     const auto add = [&](const MethodChoice& choice) {

@@ -21,6 +21,9 @@ struct MethodChoice {
 /// Without a number, the method's default. \throw InputError if the method takes none, or not that one.
 MethodChoice choose(const Method& method, std::optional<int> samples = {});
 
+/// With the number that is among the settings, else the default.
+MethodChoice choice_of(const Method& method, const Settings& settings);
+
 /// Every method that gives ao by its defaults, and those whose error falls with their rays at a few of them.
 std::vector<MethodChoice> standard_choices();
 

@@ -125,6 +125,8 @@ class Page {
         return text + std::string(tail);
     }
 
+    std::string chart() const { return times(all_, total, "CPU seconds, all"); }
+
   private:
     static float radius_of(const Measurement& m) { return m.radius; }
     static float voxel_of(const Measurement& m) { return m.voxel; }
@@ -276,6 +278,10 @@ class Page {
 
 std::string report(std::span<const Measurement> measurements) {
     return Page(measurements).text();
+}
+
+std::string chart_of_times(std::span<const Measurement> measurements) {
+    return Page(measurements).chart();
 }
 
 }

@@ -13,4 +13,7 @@ namespace alcove {
 /// pictures; of several voxels or radii, error against them; of several meshes, all of them together.
 std::string report(std::span<const Measurement> measurements);
 
+/// Error against CPU seconds with the Pareto front, as an <svg> element.
+std::string chart_of_times(std::span<const Measurement> measurements);
+
 }

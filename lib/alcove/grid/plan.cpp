@@ -17,17 +17,6 @@ constexpr double bytes_per_triangle = 400.0;
 constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
 
-double area(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame) {
-    double sum = 0.0;
-    for (const Triangle& t : triangles) {
-        const Vec3d a = (mesh.positions[t[0]] - frame.center) / frame.diagonal;
-        const Vec3d b = (mesh.positions[t[1]] - frame.center) / frame.diagonal;
-        const Vec3d c = (mesh.positions[t[2]] - frame.center) / frame.diagonal;
-        sum += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-    return sum;
-}
-
 struct Estimate {
     double surface;
     double band; // voxels, both sides
@@ -50,12 +39,28 @@ struct Estimate {
 
 }
 
+double surface_area(const Mesh& mesh, std::span<const Triangle> triangles) {
+    const Frame frame = frame_of(mesh.box());
+    double sum = 0.0;
+    for (const Triangle& t : triangles) {
+        const Vec3d a = (mesh.positions[t[0]] - frame.center) / frame.diagonal;
+        const Vec3d b = (mesh.positions[t[1]] - frame.center) / frame.diagonal;
+        const Vec3d c = (mesh.positions[t[2]] - frame.center) / frame.diagonal;
+        sum += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+    return sum;
+}
+
+float chosen_voxel(float radius, float largest_voxel) {
+    return std::min(std::max(std::min(radius, 1.0f) / 8.0f, 1.0f / 1024.0f), largest_voxel);
+}
+
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
     LevelPlan plan;
     plan.outer_band = std::max(options.outer_band, 3.0f);
     plan.inner_band = std::max(options.inner_band, 2.0f);
     const float reach = std::min(options.radius, 1.0f);
-    const Estimate estimate{area(mesh, triangles, frame_of(mesh.box())), 2.0 * plan.outer_band,
+    const Estimate estimate{surface_area(mesh, triangles), 2.0 * plan.outer_band,
                             static_cast<double>(triangles.size())};
 
     if (options.voxel > 0.0f) {
@@ -69,7 +74,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
                             std::ceil(1e4 * fitting) / 100.0));
         }
     } else {
-        const float wanted = std::min(std::max(reach / 8.0f, 1.0f / 1024.0f), options.largest_voxel);
+        const float wanted = chosen_voxel(options.radius, options.largest_voxel);
         plan.voxel = static_cast<float>(estimate.finest_that_fits(wanted, options.memory_limit));
     }
     plan.bytes = estimate.bytes(plan.voxel);

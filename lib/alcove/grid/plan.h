@@ -30,6 +30,12 @@ struct LevelPlan {
     double bytes = 0.0; ///< estimate of the peak while building
 };
 
+/// Of the triangles, in the unit space of the mesh's own box.
+double surface_area(const Mesh& mesh, std::span<const Triangle> triangles);
+
+/// The finest voxel that is taken where none is asked for, unit space, unless memory asks for a larger one.
+float chosen_voxel(float radius, float largest_voxel);
+
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
 /// from area / voxel². A voxel of 0 is coarsened until it fits.
 /// \throw LimitError if a voxel that was asked for needs more than the limit or more than 2^20 voxels along

@@ -8,7 +8,7 @@ namespace alcove {
 
 /// Surfels along a curve, as arrays of at least `window` values.
 struct Curve {
-    static constexpr std::size_t window = 192; ///< neighbours on the curve that share their rays
+    static constexpr std::size_t window = 96; ///< neighbours on the curve that share their rays
     static constexpr std::size_t probes = 10;
 
     const float *x, *y, *z;

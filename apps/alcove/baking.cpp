@@ -1,0 +1,76 @@
+#include "baking.h"
+
+#include "alcove/accuracy/planned_bake.h"
+#include "alcove/grid/plan.h"
+
+namespace alcove::cli {
+
+Needs BakeTask::needs() const {
+    return needs_of(method ? *method : find_method("exact"), wanted);
+}
+
+Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const BakeTask& task,
+                 std::span<const Surfel> surfels, const Progress& progress) {
+    Stopwatch watch;
+    Needs needs = task.needs();
+    const bool with_pilot = task.planning.pilot && task.wanted.has(Channel::ao);
+    needs.rays = needs.rays || with_pilot;
+    const Occluders occluders =
+        surroundings.around(input.mesh, input.triangles, input.stack, input.frame, needs);
+    Baked baked{choice_of(*task.method, task.settings), {}, facts_of(input.stack)};
+    baked.grid_seconds = watch.lap();
+    baked.values = bake_channels(surfels, occluders, *task.method, task.settings, task.wanted, progress);
+    watch.lap();
+    if (with_pilot) {
+        const Pilot pilot(surfels, occluders.rays(), task.settings.radius);
+        if (!pilot.empty())
+            baked.rmse = pilot.rmse(baked.values[Channel::ao]);
+        baked.pilot_seconds = watch.lap();
+    }
+    return baked;
+}
+
+Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeTask& task,
+                   std::span<const Surfel> surfels, const CommonOptions& common, const Progress& progress) {
+    Stopwatch watch;
+    Baked baked;
+    const float radius = task.settings.radius;
+    const RaySurface surface =
+        surroundings.around(input.mesh, input.triangles, input.stack, input.frame, {.rays = true}).rays();
+    baked.grid_seconds = watch.lap();
+    const Pilot pilot(surfels, surface, radius);
+    const bool has_grid = !input.stack.levels.empty();
+    const auto make_field = [&](float largest_voxel) {
+        Stopwatch making;
+        if (!has_grid) {
+            input.options.grid.largest_voxel = largest_voxel;
+            make_stack(input, common);
+            surroundings.voxelize(input);
+        }
+        AnyField field =
+            surroundings.around(input.mesh, input.triangles, input.stack, input.frame, {.field = true})
+                .field();
+        baked.grid_seconds += making.lap();
+        return field;
+    };
+    baked.pilot_seconds = watch.lap();
+    PlannedBake planned = bake_planned(surfels, surface, make_field, pilot,
+                                       {.error = *task.planning.error,
+                                        .radius = radius,
+                                        .seed = task.seed,
+                                        .surfels = surfels.size(),
+                                        .triangles = input.triangles.size(),
+                                        .area = surface_area(input.mesh, input.triangles),
+                                        .has_grid = has_grid,
+                                        .wanted = task.wanted},
+                                       progress);
+    baked.choice = planned.plan.choice;
+    baked.values = std::move(planned.values);
+    if (has_grid || planned.plan.largest_voxel > 0.0f)
+        baked.grid = facts_of(input.stack);
+    if (!pilot.empty())
+        baked.rmse = planned.rmse;
+    return baked;
+}
+
+}

@@ -1,0 +1,71 @@
+#include "alcove/accuracy/pilot.h"
+
+#include "alcove/accuracy/error_figures.h"
+#include "alcove/accuracy/subset.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+constexpr std::uint32_t first_seed = 0x9d1f, second_seed = 0x51ab;
+constexpr int most_rays = 1 << 20;
+/// Of the error of shifted lattices, in their rays.
+constexpr double exponent = 0.72;
+
+double without(double square, double noise2) {
+    return std::sqrt(std::max(square - noise2, 0.0));
+}
+
+}
+
+Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius,
+             const PilotOptions& options)
+    : surface_(surface), radius_(radius), indices_(evenly(spatial_order(surfels), options.surfels)),
+      surfels_(pick(surfels, indices_)) {
+    Exact half{.radius = radius, .rays = options.rays / 2, .seed = first_seed};
+    reference_ = bake(surfels_, surface_, half);
+    half.seed = second_seed;
+    const std::vector<float> other = bake(surfels_, surface_, half);
+    const ErrorFigures difference = compare(reference_, other);
+    noise2_ = difference.rmse * difference.rmse / 4.0;
+    for (std::size_t i = 0; i < reference_.size(); ++i)
+        reference_[i] = 0.5f * (reference_[i] + other[i]);
+    const double deviation = compare(reference_, reference_).deviation;
+    deviation_ = without(deviation * deviation, noise2_);
+}
+
+double Pilot::rmse_of_own(std::span<const float> ao) const {
+    const double rmse = compare(ao, reference_).rmse;
+    return without(rmse * rmse, noise2_);
+}
+
+double Pilot::rmse(std::span<const float> ao) const {
+    std::vector<float> own;
+    own.reserve(indices_.size());
+    for (const std::uint32_t i : indices_)
+        own.push_back(ao[i]);
+    return rmse_of_own(own);
+}
+
+double Pilot::rmse_of_exact(int rays, std::uint32_t seed) const {
+    return rmse_of_own(bake(surfels_, surface_, Exact{.radius = radius_, .rays = rays, .seed = seed}));
+}
+
+int Pilot::rays_for(double error, std::uint32_t seed) const {
+    int rays = 16;
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        const double rmse = rmse_of_exact(rays, seed);
+        if (rmse <= error && rmse > 0.9 * error)
+            break;
+        const double factor = std::pow(std::max(rmse, 0.1 * error) / (0.96 * error), 1.0 / exponent);
+        const int next = static_cast<int>(std::clamp(std::ceil(rays * factor), 1.0, double(most_rays)));
+        if (next == rays)
+            break;
+        rays = next;
+    }
+    return rays;
+}
+
+}

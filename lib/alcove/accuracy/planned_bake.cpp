@@ -1,0 +1,51 @@
+#include "alcove/accuracy/planned_bake.h"
+
+#include "alcove/grid/plan.h"
+
+#include <map>
+
+namespace alcove {
+namespace {
+
+/// Each field made when it is first asked for.
+class Fields {
+  public:
+    explicit Fields(const MakeField& make) : make_(make) {}
+
+    const AnyField& with_voxel(float largest) {
+        const auto known = made_.find(largest);
+        return known != made_.end() ? known->second : made_.emplace(largest, make_(largest)).first->second;
+    }
+
+  private:
+    const MakeField& make_;
+    std::map<float, AnyField> made_;
+};
+
+}
+
+PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surface,
+                         const MakeField& make_field, const Pilot& pilot, const PlanRequest& request,
+                         const Progress& progress) {
+    Planner planner(request, pilot);
+    Fields fields(make_field);
+    PlannedBake result;
+    for (;;) {
+        result.plan = planner.next();
+        const MethodChoice& choice = result.plan.choice;
+        const float voxel = request.has_grid ? GridOptions{}.largest_voxel : result.plan.largest_voxel;
+        const Occluders occluders =
+            voxel > 0.0f ? Occluders(fields.with_voxel(voxel), surface) : Occluders(surface);
+        Settings settings = choice.settings(request.radius);
+        if (choice.method->asks_rays)
+            settings.parameters.emplace_back("seed", request.seed);
+        result.values = bake_channels(surfels, occluders, *choice.method, settings, request.wanted, progress);
+        result.rmse = pilot.rmse(result.values[Channel::ao]);
+        ++result.attempts;
+        if (result.rmse <= request.error || result.plan.largest_voxel == 0.0f)
+            return result;
+        planner.learn(result.plan, result.rmse);
+    }
+}
+
+}

@@ -1,0 +1,27 @@
+/// A bake that is planned, and held to its error.
+#pragma once
+
+#include "alcove/accuracy/planner.h"
+#include "alcove/field/any_field.h"
+
+#include <functional>
+
+namespace alcove {
+
+/// The field of a grid whose chosen voxel is that at most; asked once for each.
+using MakeField = std::function<AnyField(float largest_voxel)>;
+
+struct PlannedBake {
+    Plan plan;
+    ChannelValues values;
+    double rmse = 0.0; ///< as the pilot tells
+    int attempts = 0;  ///< bakes that were made
+};
+
+/// Bakes by the cheapest plan, and by others where its error turns out too large at the pilot's surfels; exact
+/// rays end it. The wanted channels hold ao; those that exact rays do not give need `request.has_grid`. `surface` is what the pilot was made with.
+PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surface,
+                         const MakeField& make_field, const Pilot& pilot, const PlanRequest& request,
+                         const Progress& progress = {});
+
+}

@@ -1,0 +1,90 @@
+#include "alcove/accuracy/planner.h"
+
+#include "alcove/accuracy/plan_table.h"
+#include "alcove/grid/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+/// The table between its radii, and as at its ends beyond them.
+template <std::size_t n>
+double at_radius(const std::array<double, n>& values, float radius) {
+    static_assert(n == plan_table::radii.size());
+    const double r = std::log(std::min(radius, 1.0f));
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        const double low = std::log(plan_table::radii[i]), high = std::log(plan_table::radii[i + 1]);
+        if (r < high) {
+            const double t = std::clamp((r - low) / (high - low), 0.0, 1.0);
+            return values[i] + t * (values[i + 1] - values[i]);
+        }
+    }
+    return values[n - 1];
+}
+
+double ray_seconds(const PlanRequest& request) {
+    const double doublings = std::log2(static_cast<double>(std::max<std::size_t>(request.triangles, 1)));
+    const double relative =
+        1.0 + plan_table::rays_slower_per_doubling * (doublings - plan_table::doublings_of_rays);
+    return at_radius(plan_table::seconds_per_ray, request.radius) * std::max(relative, 0.3);
+}
+
+double grid_seconds(const PlanRequest& request, float largest_voxel) {
+    const double voxel = chosen_voxel(request.radius, largest_voxel);
+    return plan_table::seconds_per_grid +
+           plan_table::grid_seconds_per_triangle * static_cast<double>(request.triangles) +
+           plan_table::grid_seconds_per_voxel * request.area / (voxel * voxel);
+}
+
+}
+
+Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(request.error) {
+    const auto surfels = static_cast<double>(request.surfels);
+    const double tree = plan_table::tree_seconds_per_triangle * static_cast<double>(request.triangles);
+    const int rays = pilot.rays_for(request.error, request.seed);
+    candidates_.push_back(
+        {{choose(find_method("exact"), rays), 0.0f, error_, tree + surfels * rays * ray_seconds(request)},
+         0.0});
+    for (const plan_table::Row& row : plan_table::rows) {
+        if (request.has_grid && row.largest_voxel != GridOptions{}.largest_voxel)
+            continue;
+        const MethodChoice choice = choose(find_method(row.method), row.samples);
+        if (!(request.wanted & Exact::gives).without(choice.method->gives).empty())
+            continue;
+        const double grid = request.has_grid ? 0.0 : grid_seconds(request, row.largest_voxel);
+        const double own = choice.rays() * ray_seconds(request) + row.seconds_per_surfel;
+        candidates_.push_back({{choice, row.largest_voxel,
+                                at_radius(row.error_per_deviation, request.radius) * pilot.deviation(),
+                                grid + (choice.method->asks_rays ? tree : 0.0) + surfels * own},
+                               grid});
+    }
+}
+
+Plan Planner::next() const {
+    const Candidate* best = nullptr;
+    for (const Candidate& candidate : candidates_)
+        if (!candidate.tried && candidate.plan.rmse <= error_ &&
+            (!best || candidate.plan.seconds < best->plan.seconds))
+            best = &candidate;
+    return best ? best->plan : candidates_.front().plan;
+}
+
+void Planner::learn(const Plan& tried, double rmse) {
+    const double correction = rmse / std::max(tried.rmse, 1e-9);
+    for (Candidate& candidate : candidates_) {
+        Plan& plan = candidate.plan;
+        if (plan.choice == tried.choice && plan.largest_voxel == tried.largest_voxel)
+            candidate.tried = true;
+        if (plan.choice.method == tried.choice.method && plan.largest_voxel > 0.0f)
+            plan.rmse *= correction;
+        // Its grid is there now.
+        if (plan.largest_voxel == tried.largest_voxel && plan.largest_voxel > 0.0f) {
+            plan.seconds -= candidate.grid_seconds;
+            candidate.grid_seconds = 0.0;
+        }
+    }
+}
+
+}

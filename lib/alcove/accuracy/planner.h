@@ -1,0 +1,53 @@
+/// The cheapest way to a wanted error.
+#pragma once
+
+#include "alcove/accuracy/method_choice.h"
+#include "alcove/accuracy/pilot.h"
+
+#include <vector>
+
+namespace alcove {
+
+struct PlanRequest {
+    double error = 0.02; ///< RMSE to hold, > 0
+    float radius = 0.1f; ///< unit space; may be infinite
+    std::uint32_t seed = 0;
+    std::size_t surfels = 0, triangles = 0;
+    double area = 0.0;     ///< of the triangles, unit space
+    bool has_grid = false; ///< one of GridOptions' own voxel is there in any case, at no cost
+    ChannelSet wanted = Channel::ao;
+};
+
+/// A method with what it needs, and what it is expected to come to.
+struct Plan {
+    MethodChoice choice;
+    float largest_voxel = 0.0f; ///< of its grid, as GridOptions has it; 0 for none
+    double rmse = 0.0;
+    double seconds = 0.0; ///< CPU seconds of grid, tree and occlusion on the machine of the table
+};
+
+/// Weighs exact rays, whose number the pilot tells, against guided and calibrated, whose errors and costs are in
+/// plan_table.h, as far as they give the wanted channels that exact rays give: measured on the meshes that calibrated was fitted to, errors as shares of the deviation of the
+/// truth, medians over the meshes. What a bake turned out to be corrects the others of its method.
+/// The plan depends on the mesh alone, not on the speed of the machine. Not thread-safe.
+class Planner {
+  public:
+    Planner(const PlanRequest& request, const Pilot& pilot);
+
+    /// The cheapest that is expected to hold the error and was not tried; exact rays always are.
+    Plan next() const;
+    /// Tells what a plan came to: where that is over the error, next() is another.
+    void learn(const Plan& tried, double rmse);
+
+  private:
+    struct Candidate {
+        Plan plan;
+        double grid_seconds;
+        bool tried = false;
+    };
+
+    double error_;
+    std::vector<Candidate> candidates_;
+};
+
+}

@@ -1,0 +1,77 @@
+#include "alcove/accuracy/pilot.h"
+
+#include "alcove/accuracy/measure.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+constexpr float radius = 0.3f;
+
+/// Two spheres side by side, nearly touching: 2,052 vertices, open but between them.
+class Piloting : public testing::Test {
+  protected:
+    static Mesh two_spheres() {
+        Mesh mesh = test::sphere_mesh(4);
+        test::add_part(mesh, test::sphere_mesh(4), 1.0, {2.1, 0, 0});
+        return mesh;
+    }
+
+    const MeasuredMesh mesh_{"spheres", two_spheres()};
+    const Truth truth_ = make_truth(mesh_, radius, {.rays = 4096});
+    const Pilot pilot_{mesh_.surfels, mesh_.rays, radius};
+};
+
+TEST_F(Piloting, FindsTheErrorOfAWholeBake) {
+    ASSERT_GT(mesh_.surfels.size(), PilotOptions{}.surfels);
+    for (const int rays : {2, 16, 64}) {
+        const std::vector<float> ao = bake(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = rays});
+        double squares = 0.0;
+        for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
+            squares += std::pow(ao[truth_.vertices[i]] - truth_.ao[i], 2);
+        const double rmse = std::sqrt(squares / static_cast<double>(truth_.vertices.size()));
+        EXPECT_NEAR(pilot_.rmse(ao), rmse, 0.15 * rmse) << rays;
+        EXPECT_DOUBLE_EQ(pilot_.rmse_of_exact(rays, 0), pilot_.rmse(ao)) << rays;
+    }
+}
+
+TEST_F(Piloting, TakesTheNoiseOfItsReferenceOffErrors) {
+    // Of few rays the reference is as far from the truth as what it is to judge.
+    const Pilot noisy(mesh_.surfels, mesh_.rays, radius, {.surfels = 2000, .rays = 16});
+    std::vector<float> ao(mesh_.surfels.size());
+    for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
+        ao[truth_.vertices[i]] = truth_.ao[i];
+    EXPECT_LT(noisy.rmse(ao), 0.01);
+    for (float& value : ao)
+        value += 0.05f;
+    EXPECT_NEAR(noisy.rmse(ao), 0.05, 0.005);
+    EXPECT_NEAR(noisy.deviation(), pilot_.deviation(), 0.01);
+    EXPECT_GT(pilot_.deviation(), 0.03);
+}
+
+TEST_F(Piloting, TellsHowManyRaysHoldAnError) {
+    int fewer = 0;
+    for (const double error : {0.05, 0.02, 0.005}) {
+        const int rays = pilot_.rays_for(error, 7);
+        EXPECT_GT(rays, fewer);
+        const double rmse = pilot_.rmse_of_exact(rays, 7);
+        EXPECT_LT(rmse, 1.05 * error);
+        EXPECT_GT(rmse, 0.7 * error);
+        fewer = rays;
+    }
+}
+
+TEST_F(Piloting, OfNoSurfelIsEmpty) {
+    const Pilot nothing(std::vector<Surfel>{{{0, 0, 0}, {0, 0, 0}}}, mesh_.rays, radius);
+    EXPECT_TRUE(nothing.empty());
+    EXPECT_FALSE(pilot_.empty());
+    EXPECT_EQ(nothing.rmse(std::vector<float>{1.0f}), 0.0);
+    EXPECT_EQ(nothing.deviation(), 0.0);
+}
+
+}
+}

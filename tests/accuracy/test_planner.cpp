@@ -1,0 +1,111 @@
+#include "alcove/accuracy/planned_bake.h"
+
+#include "alcove/accuracy/measure.h"
+#include "alcove/field/primitives.h"
+#include "alcove/grid/plan.h"
+#include "real_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace alcove {
+namespace {
+
+constexpr float radius = 0.1f;
+
+class Planning : public testing::Test {
+  protected:
+    PlanRequest request(double error) const {
+        return {.error = error,
+                .radius = radius,
+                .surfels = mesh_.surfels.size(),
+                .triangles = mesh_.triangles.size(),
+                .area = surface_area(mesh_.mesh, mesh_.triangles)};
+    }
+
+    MeasuredMesh mesh_{"bunny00", test::RealMesh("bunny00.off").mesh}; // the table never saw it
+    Pilot pilot_{mesh_.surfels, mesh_.rays, radius};
+};
+
+TEST_F(Planning, CostsMoreTheSmallerTheError) {
+    for (const bool has_grid : {false, true}) {
+        double cheaper = 0.0;
+        for (const double error : {0.2, 0.1, 0.05, 0.03, 0.02, 0.01, 0.005}) {
+            PlanRequest wanted = request(error);
+            wanted.has_grid = has_grid;
+            const Plan plan = Planner(wanted, pilot_).next();
+            EXPECT_GE(plan.seconds, cheaper) << error;
+            EXPECT_LE(plan.rmse, error);
+            cheaper = plan.seconds;
+        }
+    }
+}
+
+TEST_F(Planning, ProbesWhereAGridIsThereOrMeshesAreLarge) {
+    PlanRequest wanted = request(0.03);
+    EXPECT_EQ(Planner(wanted, pilot_).next().choice.method->name, "exact");
+    wanted.has_grid = true;
+    EXPECT_TRUE(Planner(wanted, pilot_).next().choice.method->asks_field);
+    wanted.has_grid = false;
+    wanted.error = 0.01;
+    wanted.surfels = 100'000'000; // of the same triangles: rays cost, the grid does not
+    const Plan plan = Planner(wanted, pilot_).next();
+    EXPECT_EQ(plan.choice.method->name, "guided");
+    EXPECT_GT(plan.largest_voxel, 0.0f);
+}
+
+TEST_F(Planning, LearnsFromWhatItTried) {
+    PlanRequest wanted = request(0.03);
+    wanted.has_grid = true;
+    Planner planner(wanted, pilot_);
+    std::set<std::string> tried;
+    Plan plan = planner.next();
+    while (plan.largest_voxel > 0.0f) {
+        EXPECT_TRUE(tried.insert(plan.choice.label()).second) << "tried again: " << plan.choice.label();
+        planner.learn(plan, 0.2);
+        plan = planner.next();
+    }
+    EXPECT_EQ(plan.choice.method->name, "exact");
+    EXPECT_LE(tried.size(), 2u) << "one of guided and one of calibrated tell that none will do";
+}
+
+TEST_F(Planning, KeepsToMethodsThatGiveWhatIsWanted) {
+    PlanRequest wanted = request(0.1);
+    wanted.has_grid = true;
+    wanted.wanted = Channel::ao | Channel::bent_normal;
+    EXPECT_NE(Planner(wanted, pilot_).next().choice.method->name, "calibrated");
+}
+
+TEST_F(Planning, BakesHoldTheirErrorWhateverTheField) {
+    const Truth truth = make_truth(mesh_, radius, {.rays = 1024, .most = 5000});
+    int made = 0;
+    for (const bool useful : {true, false}) {
+        const MakeField make_field = [&](float voxel) -> AnyField {
+            ++made;
+            if (useful)
+                return build_grid(mesh_, radius, chosen_voxel(radius, voxel)).field;
+            return Plane{{0, 1, 0}, -10.0f};
+        };
+        for (const double error : {0.05, 0.03}) {
+            PlanRequest wanted = request(error);
+            wanted.has_grid = true;
+            made = 0;
+            const PlannedBake planned = bake_planned(mesh_.surfels, mesh_.rays, make_field, pilot_, wanted);
+            std::vector<float> values;
+            for (const std::uint32_t vertex : truth.vertices)
+                values.push_back(planned.values[Channel::ao][vertex]);
+            const double rmse = compare(values, truth.ao).rmse;
+            EXPECT_LE(rmse, 1.15 * error) << planned.plan.choice.label();
+            EXPECT_NEAR(planned.rmse, rmse, 0.3 * rmse) << planned.plan.choice.label();
+            EXPECT_EQ(made, 1);
+            if (useful)
+                EXPECT_NE(planned.plan.choice.method->name, "exact") << error;
+            else
+                EXPECT_GT(planned.attempts, 1) << error;
+        }
+    }
+}
+
+}
+}

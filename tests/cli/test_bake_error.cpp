@@ -1,0 +1,88 @@
+#include "baked.h"
+#include "program.h"
+
+#include "alcove/accuracy/measure.h"
+#include "alcove/mesh/read.h"
+
+#include <cmath>
+
+namespace alcove::test {
+namespace {
+
+class BakeError : public ProgramTest {
+  protected:
+    /// The RMSE of what a bake at a radius of 10 % left, against 1,024 exact rays a vertex.
+    double error_of(const std::string& mesh_file, const std::string& output) const {
+        const MeasuredMesh mesh(mesh_file, read_mesh(mesh_file));
+        const Truth truth = make_truth(mesh, 0.1f);
+        const std::vector<float> ao = read_baked(folder_ / "work" / output).ao;
+        std::vector<float> values;
+        for (const std::uint32_t vertex : truth.vertices)
+            values.push_back(ao[vertex]);
+        return compare(values, truth.ao).rmse;
+    }
+};
+
+TEST_F(BakeError, IsHeldAndTold) {
+    const std::string mesh = real_mesh("elephant.off");
+    for (const char* error : {"0.1", "0.03", "0.01"}) {
+        const Outcome outcome = run({"bake", mesh, "-o", "a.ply", "--error", error, "--json"});
+        ASSERT_EQ(outcome.code, done) << outcome.err;
+        const double rmse = error_of(mesh, "a.ply"), wanted = std::stod(error);
+        EXPECT_LE(rmse, 1.15 * wanted);
+        EXPECT_GT(rmse, 0.4 * wanted) << "dearer than asked for";
+        EXPECT_NEAR(outcome.json().at("estimated_rmse").get<double>(), rmse, 0.3 * rmse);
+        EXPECT_GT(outcome.json().at("samples"), 0);
+    }
+}
+
+TEST_F(BakeError, IsToldOfEveryMethodAndPartByDefault) {
+    const std::string mesh = real_mesh("elephant.off");
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--method", "classic"}, {"--method", "guided"}, {"--self"}}) {
+        std::vector<std::string> arguments{"bake", mesh, "-o", "a.ply", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run(arguments);
+        ASSERT_EQ(outcome.code, done) << outcome.err;
+        const double rmse = error_of(mesh, "a.ply");
+        EXPECT_NEAR(outcome.json().at("estimated_rmse").get<double>(), rmse, 0.3 * rmse) << more.back();
+        EXPECT_GT(outcome.json().at("seconds").at("pilot"), 0.0);
+    }
+    const Outcome bare = run({"bake", mesh, "-o", "a.ply", "--json", "--no-pilot"});
+    EXPECT_TRUE(bare.json().at("estimated_rmse").is_null());
+    EXPECT_EQ(run({"bake", mesh, "-o", "a.ply", "--json", "--attributes", "convexity", "--method", "classic"})
+                  .json()
+                  .at("estimated_rmse"),
+              nullptr);
+}
+
+TEST_F(BakeError, CountsSurroundingsAndGoesWithOtherAttributes) {
+    const std::string mesh = real_mesh("elephant.off");
+    const Outcome outcome = run({"bake", mesh, "-o", "a.ply", "--error", "0.02", "--json", "--ground",
+                                 "--attributes", "ao,bent_normal,thickness"});
+    ASSERT_EQ(outcome.code, done) << outcome.err;
+    EXPECT_LE(outcome.json().at("estimated_rmse"), 0.02);
+    const Baked baked = read_baked(folder_ / "work/a.ply");
+    EXPECT_EQ(baked.ao.size(), 2775u);
+}
+
+TEST_F(BakeError, LeavesNothingElseToChoose) {
+    write("cube.off", cube_off);
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--method", "exact"},
+                                                 {"--rays", "4"},
+                                                 {"--samples", "4"},
+                                                 {"--set", "rays=4"},
+                                                 {"--voxel", "1%"},
+                                                 {"--self"},
+                                                 {"--no-pilot"},
+                                                 {"--attributes", "convexity"}}) {
+        std::vector<std::string> arguments{"bake", "cube.off", "-o", "a.ply", "--error", "0.02"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_refusal(arguments, usage, {"--error", more.back() == "convexity" ? "ao" : more.front()});
+    }
+    for (const char* error : {"0", "-1", "2", "nan"})
+        expect_refusal({"bake", "cube.off", "-o", "a.ply", "--error", error}, usage, {"--error", "0.001"});
+}
+
+}
+}
