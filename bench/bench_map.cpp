@@ -6,12 +6,9 @@
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/vdb.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
 #include "alcove/occlusion/bake.h"
-#include "subdivided.h"
+#include "scan.h"
 
-#include <benchmark/benchmark.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
 #include <nanovdb/util/SampleFromVoxels.h>
 #include <openvdb/tools/Interpolation.h>
@@ -25,26 +22,22 @@ constexpr float voxel = 1.0f / 128.0f;
 
 struct Scene {
     Scene() {
-        const Mesh mesh = subdivided(read_mesh(ALCOVE_REAL_MESHES "/armadillo.off"));
-        const auto triangles = triangulate(mesh).triangles;
         VoxelizeOptions options;
         options.grid.voxel = voxel;
         options.grid.radius = 4.0f * voxel;
-        stack = voxelize(mesh, triangles, options);
+        stack = voxelize(scan().mesh, scan().triangles, options);
         bricks = std::make_unique<Bricks>(stack.levels.front(),
                                           static_cast<float>(stack.value_unit / stack.frame.diagonal));
-        surfels = make_surfels(mesh, triangles, stack.frame);
-        for (const std::uint32_t i : spatial_order(surfels))
-            sorted.push_back(surfels[i]);
+        for (const std::uint32_t i : spatial_order(scan().surfels))
+            sorted.push_back(scan().surfels[i]);
     }
 
     GridStack stack;
     std::unique_ptr<Bricks> bricks;
-    std::vector<Surfel> surfels; ///< in file order
-    std::vector<Surfel> sorted;  ///< along a Morton curve
+    std::vector<Surfel> sorted; ///< along a Morton curve
 
     const std::vector<Surfel>& order(const benchmark::State& state) const {
-        return state.range(0) ? sorted : surfels;
+        return state.range(0) ? sorted : scan().surfels;
     }
 };
 
@@ -67,7 +60,7 @@ void probe_all(benchmark::State& state, const Sample& sample) {
         }
         benchmark::DoNotOptimize(sum);
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.surfels.size()) * probes);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.sorted.size()) * probes);
 }
 
 void dense_array(benchmark::State& state) {
@@ -134,7 +127,7 @@ void bricks_batched(benchmark::State& state) {
         }
         benchmark::DoNotOptimize(sum);
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.surfels.size()) * probes);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.sorted.size()) * probes);
 }
 BENCHMARK(bricks_batched)->ArgName("sorted")->Arg(0)->Arg(1);
 

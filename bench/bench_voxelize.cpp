@@ -4,38 +4,14 @@
 ///
 ///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/grid/voxelize.h"
-#include "alcove/mesh/read.h"
 #include "alcove/parallel.h"
-#include "subdivided.h"
-
-#include <benchmark/benchmark.h>
-#include <openvdb/tools/MeshToVolume.h>
-
-#include <vector>
+#include "openvdb_peer.h"
 
 namespace {
 
 using namespace alcove;
 
 constexpr float band = 5.0f;
-
-struct Scan {
-    explicit Scan(Mesh shape) : mesh(std::move(shape)), triangles(triangulate(mesh).triangles) {}
-
-    Mesh mesh;
-    std::vector<Triangle> triangles;
-};
-
-const Scan& scan(std::int64_t level) {
-    static const std::vector<Scan> scans = [] {
-        std::vector<Scan> made;
-        made.emplace_back(read_mesh(ALCOVE_REAL_MESHES "/armadillo.off"));
-        for (int i = 0; i < 2; ++i)
-            made.emplace_back(subdivided(made.back().mesh));
-        return made;
-    }();
-    return scans[static_cast<std::size_t>(level)];
-}
 
 VoxelizeOptions options(const benchmark::State& state) {
     VoxelizeOptions result;
@@ -62,24 +38,14 @@ void ours_far(benchmark::State& state) {
         benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, far));
 }
 
-struct IndexedScan {
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles;
-};
-
-void mesh_to_volume(benchmark::State& state) {
-    const Scan& s = scan(state.range(0));
+void openvdb_mesh_to_volume(benchmark::State& state) {
+    const OpenVdbMesh mesh(scan(state.range(0)));
     const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
-    IndexedScan indexed;
-    for (const Vec3d& p : s.mesh.positions)
-        indexed.points.emplace_back(p.x, p.y, p.z);
-    for (const Triangle& t : s.triangles)
-        indexed.triangles.emplace_back(t[0], t[1], t[2]);
-    const double voxel = s.mesh.box().diagonal() / static_cast<double>(state.range(1));
+    const double voxel = 1.0 / static_cast<double>(state.range(1));
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
     for (auto _ : state)
-        benchmark::DoNotOptimize(openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
-            *transform, indexed.points, indexed.triangles, band));
+        benchmark::DoNotOptimize(openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, mesh.points,
+                                                                                    mesh.triangles, band));
 }
 
 void all_sizes(benchmark::internal::Benchmark* bench) {
@@ -90,7 +56,7 @@ void all_sizes(benchmark::internal::Benchmark* bench) {
 }
 BENCHMARK(ours)->Apply(all_sizes);
 BENCHMARK(ours_far)->Apply(all_sizes);
-BENCHMARK(mesh_to_volume)->Apply(all_sizes);
+BENCHMARK(openvdb_mesh_to_volume)->Apply(all_sizes);
 
 }
 

@@ -1,0 +1,74 @@
+/// The scan that benchmarks run on, and finer ones.
+#pragma once
+
+#include "alcove/mesh/normals.h"
+#include "alcove/mesh/read.h"
+#include "alcove/mesh/triangulate.h"
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <numeric>
+
+namespace alcove {
+
+/// Every triangle split in four at the middles of its edges.
+inline Mesh subdivided(const Mesh& mesh) {
+    Mesh fine;
+    fine.positions = mesh.positions;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+        const auto [at, added] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.positions.size()));
+        if (added)
+            fine.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
+        return at->second;
+    };
+    for (const auto& [a, b, c] : triangulate(mesh).triangles) {
+        const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        for (const Triangle& t :
+             {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+            fine.add_face(t);
+    }
+    return fine;
+}
+
+struct Scan {
+    explicit Scan(Mesh shape)
+        : mesh(std::move(shape)), triangles(triangulate(mesh).triangles), frame(frame_of(mesh.box())),
+          surfels(make_surfels(mesh, triangles, frame)) {}
+
+    Mesh mesh;
+    std::vector<Triangle> triangles;
+    Frame frame;
+    std::vector<Surfel> surfels; ///< in file order
+};
+
+/// Subdivided `level` times: 26,002, 104,002 and 416,002 vertices.
+inline const Scan& scan(std::int64_t level = 1) {
+    static std::array<std::unique_ptr<const Scan>, 3> scans;
+    auto& made = scans[static_cast<std::size_t>(level)];
+    if (!made)
+        made = std::make_unique<const Scan>(level == 0 ? read_mesh(ALCOVE_REAL_MESHES "/armadillo.off")
+                                                       : subdivided(scan(level - 1).mesh));
+    return *made;
+}
+
+/// The corners of the triangles in unit space.
+inline std::vector<Vec3> unit_positions(const Scan& scan) {
+    std::vector<Vec3> positions;
+    positions.reserve(scan.mesh.positions.size());
+    for (const Vec3d& p : scan.mesh.positions)
+        positions.push_back(scan.frame.to_unit(p));
+    return positions;
+}
+
+/// Vertices a second, and the mean of their values: what computes the same has nearly the same.
+inline void count_vertices(benchmark::State& state, const std::vector<float>& ao) {
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ao.size()));
+    state.counters["mean_ao"] = std::accumulate(ao.begin(), ao.end(), 0.0) / static_cast<double>(ao.size());
+}
+
+}
