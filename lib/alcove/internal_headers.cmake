@@ -2,6 +2,7 @@
 # All other headers under lib/alcove are public.
 set(alcove_internal_headers
     accuracy/chart.h
+    accuracy/counting_field.h
     atomic_file.h
     grid/band.h
     grid/level_set.h

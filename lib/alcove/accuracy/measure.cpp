@@ -1,5 +1,6 @@
 #include "alcove/accuracy/measure.h"
 
+#include "alcove/accuracy/counting_field.h"
 #include "alcove/accuracy/heat_map.h"
 #include "alcove/accuracy/subset.h"
 #include "alcove/errors.h"
@@ -7,10 +8,8 @@
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
 
-#include <atomic>
 #include <ctime>
 #include <fstream>
-#include <memory>
 
 namespace alcove {
 namespace {
@@ -48,28 +47,6 @@ class ProcessMeter {
     double start_ = now();
 };
 
-/// A field that counts the points it is asked.
-class CountingField {
-  public:
-    explicit CountingField(const LevelStack& field) : field_(field) {}
-
-    float map(const Vec3& p) const {
-        ++*calls_;
-        return field_.map(p);
-    }
-    void map(const Points& points, float reach, float* distances) const {
-        *calls_ += points.count;
-        field_.map(points, reach, distances);
-    }
-    float resolution() const { return field_.resolution(); }
-    float extent() const { return field_.extent(); }
-    bool two_sided() const { return field_.two_sided(); }
-    std::size_t calls() const { return *calls_; }
-
-  private:
-    LevelStack field_;
-    std::shared_ptr<std::atomic<std::size_t>> calls_ = std::make_shared<std::atomic<std::size_t>>(0);
-};
 
 double map_calls_a_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, const MethodChoice& choice,
                           float radius) {
