@@ -47,7 +47,6 @@ class ProcessMeter {
     double start_ = now();
 };
 
-
 double map_calls_a_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, const MethodChoice& choice,
                           float radius) {
     const CountingField counting(grid.field);
