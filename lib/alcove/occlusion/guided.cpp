@@ -15,7 +15,8 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& fie
                             const Guided& guided, ChannelSet wanted, const Progress& progress) {
     wanted = wanted & Guided::gives;
     const std::vector<std::uint32_t> order = spatial_order(surfels);
-    SharedRays shared(surfels, order, guided);
+    const bool with_bent = wanted.has(Channel::bent_normal);
+    SharedRays shared(surfels, order, guided, with_bent);
     std::mutex progress_mutex;
     std::size_t finished = 0;
     const auto tell = [&](std::size_t done) {
@@ -35,10 +36,9 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& fie
     for (const ChannelInfo& channel : channels)
         if (wanted.has(channel.channel))
             baked[channel.channel].assign(surfels.size() * channel.components, channel.missing);
-    const bool with_bent = wanted.has(Channel::bent_normal);
     parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t rank = begin; rank < end; ++rank) {
-            const SharedRays::Answer answer = shared.share(shared.place(rank), with_bent);
+            const SharedRays::Answer answer = shared.share(shared.place(rank));
             if (wanted.has(Channel::ao))
                 baked[Channel::ao][order[rank]] = answer.ao;
             if (with_bent) {

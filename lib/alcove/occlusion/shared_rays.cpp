@@ -14,16 +14,11 @@ static_assert(Curve::probes == probe_count<TenProbes>);
 /// The length of the mean of cosine-weighted directions where all are open: ∫ cos²θ dω / π.
 constexpr float straight = 2.0f / 3.0f;
 
-/// The variance of the mean of one surfel's own rays, by their number as measured for shifted lattices; never
-/// that of a certain answer, because `open` is a prediction.
-float noise_of_ao(float open, int rays) {
+/// The variance of one surfel's rays by how open it is; never that of a certain answer, because `open` is a
+/// prediction.
+float variance_of(float open) {
     const float p = std::clamp(open, 0.05f, 0.95f);
-    return p * (1.0f - p) * std::pow(static_cast<float>(rays), -1.4f);
-}
-
-/// The same of the mean open direction.
-float noise_of_direction(int rays) {
-    return 0.5f * std::pow(static_cast<float>(rays), -1.8f);
+    return p * (1.0f - p);
 }
 
 /// How much a surfel's own rays count beside those of its neighbours: none where their noise explains how much
@@ -35,8 +30,10 @@ float trust_in_own(float variance, float noise) {
 }
 
 SharedRays::SharedRays(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
-                       const Guided& guided)
-    : guided_(guided), lattice_(guided.rays), place_(order.size()) {
+                       const Guided& guided, bool with_bent)
+    : guided_(guided), lattice_(guided.rays), with_bent_(with_bent),
+      noise_(std::pow(static_cast<float>(guided.rays), -1.4f)),
+      noise_of_bent_(0.5f * std::pow(static_cast<float>(guided.rays), -1.8f)), place_(order.size()) {
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Surfel& surfel = surfels[order[i]];
         if (surfels_.empty() || surfel.position != surfels_.back().position ||
@@ -45,8 +42,8 @@ SharedRays::SharedRays(std::span<const Surfel> surfels, std::span<const std::uin
         place_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
     }
     const std::size_t padded = std::max(surfels_.size(), Curve::window);
-    for (std::vector<float>& values : columns_)
-        values.assign(padded, 0.0f);
+    for (std::size_t column = 0; column < (with_bent ? columns : bent); ++column)
+        columns_[column].assign(padded, 0.0f);
     features_.assign(features, std::vector<float>(padded, 0.0f));
     for (std::size_t i = 0; i < surfels_.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -84,6 +81,8 @@ void SharedRays::shoot(const RaySurface& surface, std::size_t begin, std::size_t
         for (std::size_t r = 0; r < batch.count; ++r)
             if (!batch.hit[r]) {
                 columns_[ao][owner[r]] += part;
+                if (!with_bent_)
+                    continue;
                 columns_[bent][owner[r]] += part * batch.dx[r];
                 columns_[bent + 1][owner[r]] += part * batch.dy[r];
                 columns_[bent + 2][owner[r]] += part * batch.dz[r];
@@ -103,7 +102,7 @@ void SharedRays::shoot(const RaySurface& surface, std::size_t begin, std::size_t
     }
     flush();
     // Open surroundings bend nothing: what is shared is the deviation from that.
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; with_bent_ && i < end; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
             columns_[bent + axis][i] -= straight * columns_[ao][i] * columns_[normal + axis][i];
 }
@@ -117,7 +116,7 @@ void SharedRays::fit_model() {
         columns_[predicted][i] = open;
         columns_[residual][i] = left;
         sum += open, sum2 += double(open) * open;
-        unexplained += double(left) * left - 1.3 * noise_of_ao(open, guided_.rays);
+        unexplained += double(left) * left - 1.3 * noise_ * variance_of(open);
     }
     // On scans the model leaves 0.2 to 0.4 of the deviation of the truth, which its own is near to; more where
     // the rays say so beyond their noise, of which 1.3 is the most.
@@ -126,7 +125,7 @@ void SharedRays::fit_model() {
     model_variance_ = static_cast<float>(std::max({0.16 * variance, unexplained / count, 4e-4}));
 }
 
-SharedRays::Answer SharedRays::share(std::size_t i, bool with_bent) const {
+SharedRays::Answer SharedRays::share(std::size_t i) const {
     const std::size_t first =
         std::min(i - std::min(i, Curve::window / 2), columns_[ao].size() - Curve::window);
     std::array<float, Curve::window> weights;
@@ -134,12 +133,12 @@ SharedRays::Answer SharedRays::share(std::size_t i, bool with_bent) const {
     const float model = columns_[predicted][i];
     const Moments m =
         moments(weights.data(), columns_[predicted].data() + first, model, columns_[residual].data() + first);
-    const float noise = noise_of_ao(model, guided_.rays);
+    const float noise = noise_ * variance_of(model);
     const float mean = m.v / (m.w + noise / model_variance_);
     const float variance = m.vv / m.w - 2.0f * mean * m.v / m.w + mean * mean;
     const float shared = model + mean, own = trust_in_own(variance, noise);
     Answer answer{std::clamp(shared + own * (columns_[ao][i] - shared), 0.0f, 1.0f), Vec3(0.0f)};
-    if (with_bent)
+    if (with_bent_)
         answer.bent = share_bent(i, first, weights.data()) + straight * answer.ao * surfels_[i].normal;
     return answer;
 }
@@ -161,7 +160,7 @@ Vec3 SharedRays::share_bent(std::size_t i, std::size_t first, const float* weigh
         own[axis] = values[i];
         left += std::max(m.vv / m.w - v * v - slope * covariance, 0.0f);
     }
-    return fitted + trust_in_own(left, noise_of_direction(guided_.rays)) * (own - fitted);
+    return fitted + trust_in_own(left, noise_of_bent_) * (own - fitted);
 }
 
 Curve SharedRays::curve() const {
@@ -177,6 +176,7 @@ Curve SharedRays::curve() const {
 
 /// How far neighbours have a say: the more rays, the nearer are enough. Measured on scans.
 float SharedRays::reach(std::size_t i) const {
+    // The median distance to those before and after on the curve.
     std::array<float, 8> distances;
     std::size_t count = 0;
     for (std::size_t k = i - std::min<std::size_t>(i, 4); k < std::min(i + 5, surfels_.size()); ++k)
@@ -184,10 +184,15 @@ float SharedRays::reach(std::size_t i) const {
             distances[count++] = glm::length(surfels_[k].position - surfels_[i].position);
     if (count == 0)
         return 1.0f;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(distances.begin(), middle, distances.begin() + static_cast<std::ptrdiff_t>(count));
+    // Without branches, which nothing predicts here.
+    for (std::size_t least = 0; least <= count / 2; ++least)
+        for (std::size_t k = count - 1; k > least; --k) {
+            const float a = distances[k - 1], b = distances[k];
+            distances[k - 1] = std::min(a, b);
+            distances[k] = std::max(a, b);
+        }
     const float spacings = 18.0f / std::sqrt(static_cast<float>(guided_.rays));
-    return std::max(spacings * *middle, 1e-6f);
+    return std::max(spacings * distances[count / 2], 1e-6f);
 }
 
 }

@@ -15,7 +15,8 @@ namespace alcove {
 /// different surfels at a time.
 class SharedRays {
   public:
-    SharedRays(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const Guided& guided);
+    SharedRays(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const Guided& guided,
+               bool with_bent);
 
     std::size_t size() const { return surfels_.size(); }
     /// Where the surfel of a rank in the order stands.
@@ -27,9 +28,9 @@ class SharedRays {
 
     struct Answer {
         float ao;
-        Vec3 bent; ///< sum of open directions
+        Vec3 bent; ///< sum of open directions; zero without
     };
-    Answer share(std::size_t i, bool with_bent) const;
+    Answer share(std::size_t i) const;
 
   private:
     enum Column : std::size_t {
@@ -38,7 +39,7 @@ class SharedRays {
         ao = 6,
         predicted, ///< ao, by the model
         residual,  ///< ao − predicted
-        bent,      ///< by how much it deviates from that of open surroundings
+        bent,      ///< by how much it deviates from that of open surroundings; empty without
         columns = bent + 3
     };
     /// The probes, what Calibrated makes of them, and its square.
@@ -50,6 +51,10 @@ class SharedRays {
 
     const Guided guided_;
     const CosineLattice lattice_;
+    const bool with_bent_;
+    /// Of the mean of one surfel's rays, of the variance of one; of their direction, the variance. By their number
+    /// as measured for shifted lattices.
+    const float noise_, noise_of_bent_;
     std::vector<Surfel> surfels_;
     std::vector<std::uint32_t> place_; ///< of each rank, in surfels_
     std::array<std::vector<float>, columns> columns_;
