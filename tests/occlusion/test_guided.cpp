@@ -3,7 +3,9 @@
 #include "alcove/occlusion/guided.h"
 
 #include "alcove/field/combine.h"
+#include "alcove/field/level_stack.h"
 #include "alcove/field/primitives.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
 #include "exact_distance.h"
 #include "real_mesh.h"
@@ -145,6 +147,56 @@ TEST(Guided, NothingLeaksThroughAThinPlate) {
         else
             below += ao[i] / (0.5 * static_cast<double>(ao.size()));
     EXPECT_NEAR(below, (gap / radius) * (gap / radius), 0.005);
+}
+
+/// The same through a grid whose voxel is twice the plate: neither side of it may take from the other.
+TEST(Guided, NothingLeaksThroughAPlateOfHalfAVoxel) {
+    constexpr std::uint32_t quads = 80;
+    constexpr double voxel = 1.0 / 128, gap = 0.05;
+    Mesh mesh;
+    const auto add_sheet = [&](double height, bool up) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (std::uint32_t i = 0; i <= quads; ++i)
+            for (std::uint32_t j = 0; j <= quads; ++j)
+                mesh.positions.emplace_back(double(i) / quads - 0.5, height, double(j) / quads - 0.5);
+        for (std::uint32_t i = 0; i < quads; ++i)
+            for (std::uint32_t j = 0; j < quads; ++j) {
+                const std::uint32_t a = first + i * (quads + 1) + j, b = a + 1, c = b + quads + 1,
+                                    d = a + quads + 1;
+                if (up)
+                    mesh.add_face(std::array{a, b, c, d});
+                else
+                    mesh.add_face(std::array{d, c, b, a});
+            }
+    };
+    add_sheet(0.0, true);
+    const double thickness = 0.5 * voxel * std::sqrt(2.0 + gap * gap);
+    add_sheet(gap, false);
+    add_sheet(gap + thickness, true);
+    const auto triangles = triangulate(mesh).triangles;
+    const Frame frame = frame_of(mesh.box());
+    const std::vector<Surfel> surfels = make_surfels(mesh, triangles, frame);
+    std::vector<Vec3> positions;
+    for (const Surfel& surfel : surfels)
+        positions.push_back(surfel.position);
+    const RaySurface surface(positions, triangles);
+    const LevelStack field(voxelize(mesh, triangles, {.grid = {.radius = 0.1f, .voxel = float(voxel)}}));
+    const std::vector<float> ao = guided(surfels, field, surface, {.radius = 0.1f, .rays = 4});
+    const std::vector<float> exact = bake(surfels, surface, Exact{.radius = 0.1f, .rays = 1024});
+    double below = 0.0;
+    int count = 0;
+    for (std::size_t i = surfels.size() / 3; i < surfels.size(); ++i) {
+        const Vec3 p = Vec3(mesh.positions[i]);
+        if (std::max(std::fabs(p.x), std::fabs(p.z)) > 0.3f)
+            continue;
+        if (i >= 2 * surfels.size() / 3) {
+            EXPECT_GT(ao[i], 0.98f) << "above";
+        } else {
+            below += ao[i] - exact[i];
+            ++count;
+        }
+    }
+    EXPECT_NEAR(below / count, 0.0, 0.02);
 }
 
 /// The open ground around a slot, and the slot's dark walls, share an edge of a right angle.

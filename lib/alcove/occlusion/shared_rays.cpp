@@ -32,6 +32,7 @@ float trust_in_own(float variance, float noise) {
 SharedRays::SharedRays(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
                        const Guided& guided, bool with_bent)
     : guided_(guided), lattice_(guided.rays), with_bent_(with_bent),
+      spacings_(20.0f * std::pow(static_cast<float>(guided.rays), -0.6f)),
       noise_(std::pow(static_cast<float>(guided.rays), -1.4f)),
       noise_of_bent_(0.5f * std::pow(static_cast<float>(guided.rays), -1.8f)), place_(order.size()) {
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -174,9 +175,7 @@ Curve SharedRays::curve() const {
     return curve;
 }
 
-/// How far neighbours have a say: the more rays, the nearer are enough. Measured on scans.
 float SharedRays::reach(std::size_t i) const {
-    // The median distance to those before and after on the curve.
     std::array<float, 8> distances;
     std::size_t count = 0;
     for (std::size_t k = i - std::min<std::size_t>(i, 4); k < std::min(i + 5, surfels_.size()); ++k)
@@ -191,8 +190,7 @@ float SharedRays::reach(std::size_t i) const {
             distances[k - 1] = std::min(a, b);
             distances[k] = std::max(a, b);
         }
-    const float spacings = 18.0f / std::sqrt(static_cast<float>(guided_.rays));
-    return std::max(spacings * distances[count / 2], 1e-6f);
+    return std::max(spacings_ * distances[count / 2], 1e-6f);
 }
 
 }

@@ -52,6 +52,9 @@ class SharedRays {
     const Guided guided_;
     const CosineLattice lattice_;
     const bool with_bent_;
+    /// How far neighbours have a say, in median distances on the curve: the more rays, the nearer are enough. Measured
+    /// on scans.
+    const float spacings_;
     /// Of the mean of one surfel's rays, of the variance of one; of their direction, the variance. By their number
     /// as measured for shifted lattices.
     const float noise_, noise_of_bent_;
