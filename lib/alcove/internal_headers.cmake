@@ -14,6 +14,7 @@ set(alcove_internal_headers
     grid/triangle_tree.h
     grid/vdb.h
     grid/winding.h
+    huge_pages.h
     mesh/byte_reader.h
     mesh/edge_table.h
     mesh/file_bytes.h

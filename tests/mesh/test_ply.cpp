@@ -264,6 +264,38 @@ TEST_F(Ply, APolygonOf300CornersStaysWhole) {
     EXPECT_EQ(again.corner_uvs, mesh.corner_uvs);
 }
 
+TEST_F(Ply, ManyTextRowsAndLongOnesKeepEveryValue) {
+    constexpr int count = 20000;
+    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                       "\nproperty float x\nproperty float y\nproperty float z\n"
+                       "property list uchar short marks\nelement face 2\n"
+                       "property list int int vertex_indices\nend_header\n";
+    std::string rows;
+    for (int v = 0; v < count; ++v) {
+        const int marks = v / 4000; // rows grow behind the first ones
+        text += std::to_string(v) + " 0 1 " + std::to_string(marks);
+        rows += packed(float(v), 0.0f, 1.0f, std::uint8_t(marks));
+        for (int m = 0; m < marks; ++m) {
+            text += " " + std::to_string(m - v);
+            rows += packed(std::int16_t(m - v));
+        }
+        text += "\n";
+    }
+    for (int face = 0; face < 2; ++face) {
+        text += std::to_string(count);
+        rows += packed(count);
+        for (int v = 0; v < count; ++v) {
+            text += " " + std::to_string(v);
+            rows += packed(v);
+        }
+        text += "\n";
+    }
+    const Mesh mesh = read("in.ply", text);
+    EXPECT_EQ(mesh.face_begin, (std::vector<std::uint32_t>{0, count, 2 * count}));
+    write_mesh(mesh, path("out.ply"));
+    EXPECT_TRUE(rows_of("out.ply") == rows);
+}
+
 TEST_F(Ply, CoordinatesAreDoubleOnlyWhereFloatWouldMoveThem) {
     const auto x_type = [&](double offset) {
         Mesh mesh;

@@ -1,6 +1,7 @@
 #include "alcove/mesh/file_bytes.h"
 
 #include "alcove/errors.h"
+#include "alcove/huge_pages.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -43,6 +44,7 @@ FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
 
     std::size_t capacity = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 1u << 16;
     bytes_ = std::make_unique_for_overwrite<char[]>(capacity + 1);
+    prefer_huge_pages(bytes_.get(), capacity + 1);
     for (;;) {
         if (size_ == capacity) {
             char more = 0;

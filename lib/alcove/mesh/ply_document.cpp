@@ -10,23 +10,15 @@ namespace {
 
 struct TypeNames {
     std::string_view name, sized_name;
-    std::size_t size;
 };
-constexpr std::array<TypeNames, 8> types{{{"char", "int8", 1},
-                                          {"uchar", "uint8", 1},
-                                          {"short", "int16", 2},
-                                          {"ushort", "uint16", 2},
-                                          {"int", "int32", 4},
-                                          {"uint", "uint32", 4},
-                                          {"float", "float32", 4},
-                                          {"double", "float64", 8}}};
-
-template <class T>
-T load(const std::byte* bytes) {
-    T value;
-    std::memcpy(&value, bytes, sizeof value);
-    return value;
-}
+constexpr std::array<TypeNames, 8> types{{{"char", "int8"},
+                                          {"uchar", "uint8"},
+                                          {"short", "int16"},
+                                          {"ushort", "uint16"},
+                                          {"int", "int32"},
+                                          {"uint", "uint32"},
+                                          {"float", "float32"},
+                                          {"double", "float64"}}};
 
 template <class T>
 std::byte* store(std::byte* to, T value) {
@@ -122,10 +114,6 @@ PlyElement face_element(const Mesh& mesh) {
 
 }
 
-std::size_t size_of(PlyType type) {
-    return types[static_cast<std::size_t>(type)].size;
-}
-
 std::string_view name_of(PlyType type) {
     return types[static_cast<std::size_t>(type)].name;
 }
@@ -135,34 +123,6 @@ std::optional<PlyType> ply_type_named(std::string_view name) {
         if (name == types[i].name || name == types[i].sized_name)
             return static_cast<PlyType>(i);
     return {};
-}
-
-double number_at(const std::byte* bytes, PlyType type) {
-    switch (type) {
-    case PlyType::float32:
-        return load<float>(bytes);
-    case PlyType::float64:
-        return load<double>(bytes);
-    default:
-        return static_cast<double>(integer_at(bytes, type));
-    }
-}
-
-std::int64_t integer_at(const std::byte* bytes, PlyType type) {
-    switch (type) {
-    case PlyType::int8:
-        return load<std::int8_t>(bytes);
-    case PlyType::uint8:
-        return load<std::uint8_t>(bytes);
-    case PlyType::int16:
-        return load<std::int16_t>(bytes);
-    case PlyType::uint16:
-        return load<std::uint16_t>(bytes);
-    case PlyType::uint32:
-        return load<std::uint32_t>(bytes);
-    default:
-        return load<std::int32_t>(bytes);
-    }
 }
 
 const PlyProperty* PlyElement::find(std::string_view property) const {

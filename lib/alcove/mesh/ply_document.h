@@ -5,7 +5,9 @@
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/source.h"
 
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,16 +17,52 @@ namespace alcove {
 
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-std::size_t size_of(PlyType type);
+inline std::size_t size_of(PlyType type) {
+    constexpr std::array<std::uint8_t, 8> sizes{1, 1, 2, 2, 4, 4, 4, 8};
+    return sizes[static_cast<std::size_t>(type)];
+}
 std::string_view name_of(PlyType type);                       ///< "char", "uchar", ... "double"
 std::optional<PlyType> ply_type_named(std::string_view name); ///< also "int8", "uint8", ... "float64"
 inline bool is_integral(PlyType type) {
     return type < PlyType::float32;
 }
 
+template <class T>
+T value_at(const std::byte* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+/// The little-endian value of an integral type at `bytes`; not aligned.
+inline std::int64_t integer_at(const std::byte* bytes, PlyType type) {
+    switch (type) {
+    case PlyType::int8:
+        return value_at<std::int8_t>(bytes);
+    case PlyType::uint8:
+        return value_at<std::uint8_t>(bytes);
+    case PlyType::int16:
+        return value_at<std::int16_t>(bytes);
+    case PlyType::uint16:
+        return value_at<std::uint16_t>(bytes);
+    case PlyType::uint32:
+        return value_at<std::uint32_t>(bytes);
+    default:
+        return value_at<std::int32_t>(bytes);
+    }
+}
+
 /// The little-endian value at `bytes`; not aligned.
-double number_at(const std::byte* bytes, PlyType type);
-std::int64_t integer_at(const std::byte* bytes, PlyType type); ///< of an integral type
+inline double number_at(const std::byte* bytes, PlyType type) {
+    switch (type) {
+    case PlyType::float32:
+        return value_at<float>(bytes);
+    case PlyType::float64:
+        return value_at<double>(bytes);
+    default:
+        return static_cast<double>(integer_at(bytes, type));
+    }
+}
 
 struct PlyProperty {
     std::string name;

@@ -1,3 +1,4 @@
+#include "alcove/huge_pages.h"
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/ply_parse.h"
 
@@ -36,6 +37,7 @@ const PlyProperty* find_scalar(const PlyElement& element, std::string_view name)
 template <class T, std::size_t N>
 void read_components(const PlyElement& element, const std::array<const PlyProperty*, N>& properties,
                      std::vector<T>& values) {
+    reserve_huge(values, element.count);
     values.resize(element.count);
     for (std::size_t c = 0; c < N; ++c)
         for_each_value(element, *properties[c], [&](std::size_t row, const std::byte* bytes) {
@@ -128,9 +130,9 @@ void read_faces(const FileBytes& file, const PlyHeader& header, const PlyElement
     const PlyProperty* list = corner_list(faces);
     if (list == nullptr)
         return;
-    mesh.face_begin.reserve(faces.count + 1);
-    mesh.corners.reserve(faces.rows.size() / (size_of(list->type) + 1));
     const std::size_t size = size_of(list->type);
+    reserve_huge(mesh.face_begin, faces.count + 1);
+    reserve_huge(mesh.corners, (faces.rows.size() - faces.count * faces.smallest_row()) / size);
     const auto vertices = static_cast<std::int64_t>(mesh.vertex_count());
     for_each_value(faces, *list, [&](std::size_t row, const std::byte* bytes) {
         const std::int64_t corners = integer_at(bytes, *list->count_type);

@@ -1,31 +1,43 @@
+#include "alcove/huge_pages.h"
 #include "alcove/mesh/ply_parse.h"
 #include "alcove/mesh/text_scanner.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
 
 namespace alcove {
 namespace {
 
-/// Bytes appended through a pointer, without a size update for every value.
+/// Values appended to the rows of an element by way of a block that stays in the cache.
 class RowBuffer {
   public:
-    RowBuffer(std::vector<std::byte>& rows, std::size_t expected) : rows_(rows) { rows_.resize(expected); }
+    /// The rows will take no more than `most` bytes.
+    RowBuffer(PlyElement& element, std::size_t most) : element_(element), most_(most) {}
+
+    /// The place of the next value, of at most 8 bytes; good until the next call.
     std::byte* extend(std::size_t bytes) {
-        if (rows_.size() - used_ < bytes)
-            rows_.resize(std::max(2 * rows_.size(), used_ + bytes));
+        if (block_.size() - used_ < bytes)
+            flush();
         used_ += bytes;
-        return rows_.data() + used_ - bytes;
+        return block_.data() + used_ - bytes;
     }
-    void finish() {
-        rows_.resize(used_);
-        rows_.shrink_to_fit();
+    void end_row() { ++ended_; }
+    void flush() {
+        // The first rows foretell the room for all, give or take some corners: growing would copy them.
+        if (element_.rows.empty() && ended_ > 0)
+            reserve_huge(element_.rows, std::min(most_, used_ * element_.count / ended_ * 9 / 8));
+        element_.rows.insert(element_.rows.end(), block_.begin(),
+                             block_.begin() + static_cast<std::ptrdiff_t>(used_));
+        used_ = 0;
     }
 
   private:
-    std::vector<std::byte>& rows_;
-    std::size_t used_ = 0;
+    PlyElement& element_;
+    std::size_t most_;
+    std::array<std::byte, 1 << 16> block_;
+    std::size_t used_ = 0, ended_ = 0;
 };
 
 class TextRows {
@@ -42,7 +54,7 @@ class TextRows {
             text_.fail(grouped(element.count) + " rows of element " + in_quotes(element.name) +
                        " are announced but only " + grouped(text_.bytes_left()) +
                        " bytes follow; copy or export the file again");
-        RowBuffer rows(element.rows, element.count * element.smallest_row());
+        RowBuffer rows(element, (text_.bytes_left() + 1) / 2 * sizeof(double));
         for (std::size_t row = 0; row < element.count; ++row) {
             for (const PlyProperty& property : element.properties)
                 if (property.count_type)
@@ -52,8 +64,9 @@ class TextRows {
             if (!text_.at_line_end())
                 text_.fail("more values on the line than element " + in_quotes(element.name) +
                            " has properties; export the file again");
+            rows.end_row();
         }
-        rows.finish();
+        rows.flush();
     }
 
     const char* at() const { return text_.at(); }
@@ -68,9 +81,8 @@ class TextRows {
             text_.fail("a list " + in_quotes(property.name) + " of " + std::to_string(items) +
                        " items does not fit the rest of the file; copy or export it again");
         const std::size_t size = size_of(property.type);
-        std::byte* to = rows.extend(static_cast<std::size_t>(items) * size);
-        for (std::int64_t i = 0; i < items; ++i, to += size)
-            read_value(property.type, property.name.c_str(), to);
+        for (std::int64_t i = 0; i < items; ++i)
+            read_value(property.type, property.name.c_str(), rows.extend(size));
     }
 
     void read_value(PlyType type, const char* name, std::byte* to) {
@@ -128,6 +140,7 @@ class BinaryRows {
                                         " bytes follow; copy or export the file again");
         const char* const end = element.has_lists() ? end_of_rows(element) : at_ + element.count * smallest;
         const auto* const bytes = reinterpret_cast<const std::byte*>(at_);
+        reserve_huge(element.rows, static_cast<std::size_t>(end - at_));
         element.rows.assign(bytes, bytes + (end - at_));
         at_ = end;
         if (swapped_)

@@ -25,7 +25,7 @@ namespace alcove {
 ///  - STL: ascii, binary. Corners are joined where their coordinates are equal, -0 being 0, in order of first
 ///    appearance. Facet normals are left out: the corners say the same.
 ///
-/// Cost: linear, about 0.1 µs a triangle for text and 0.05 µs for binary PLY; the file and the mesh are in
+/// Cost: linear, about 0.2 µs a triangle for text and 0.1 µs for binary PLY; the file and the mesh are in
 /// memory at once. Safe to call from several threads.
 ///
 /// \throw InputError naming file, line or byte and mend: unknown format, damaged header, counts larger than

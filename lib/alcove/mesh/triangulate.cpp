@@ -1,5 +1,6 @@
 #include "alcove/mesh/triangulate.h"
 
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -195,7 +196,8 @@ class PolygonCutter {
 /// Triangulates the faces [begin, end).
 Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t begin, std::size_t end) {
     Triangulation result;
-    result.triangles.reserve(mesh.face_begin[end] - mesh.face_begin[begin]);
+    const std::size_t corners = mesh.face_begin[end] - mesh.face_begin[begin];
+    reserve_huge(result.triangles, corners - std::min(corners, 2 * (end - begin)));
     PolygonCutter cutter(mesh);
     std::vector<std::uint32_t> distinct;
     for (std::size_t f = begin; f < end; ++f) {
@@ -225,6 +227,9 @@ Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t b
 
 Triangulation triangulate(const Mesh& mesh) {
     const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
+    // Triangles take less time than the threads would to share them and put the parts together.
+    if (mesh.corners.size() <= 3 * mesh.face_count())
+        return triangulate_range(mesh, all_finite, 0, mesh.face_count());
     // Blocks of about as many corners, so that a few huge polygons are shared too.
     const std::size_t grain = 1 + (mesh.face_count() << 15) / (mesh.corners.size() + 1);
     std::vector<Triangulation> parts((mesh.face_count() + grain - 1) / grain);
@@ -238,6 +243,7 @@ Triangulation triangulate(const Mesh& mesh) {
         offset[i + 1] = offset[i] + parts[i].triangles.size();
         whole.faces_left_out += parts[i].faces_left_out;
     }
+    reserve_huge(whole.triangles, offset.back());
     whole.triangles.resize(offset.back());
     parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
