@@ -28,7 +28,7 @@ const std::vector<Damage>& damages() {
          "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
          "z\nend_header\n"
          "0 0 0\n1 1 1\n",
-         {"points.ply", "2 points", "no faces"}},
+         {"points.ply", "line 7", "2 points", "no faces"}},
         {"points.obj", "v 0 0 0\nv 1 0 0\n", {"points.obj", "no faces"}},
         {"empty.off", "", {"empty.off", "empty"}},
         {"prose.txt", "It was a dark and stormy night.\n", {"prose.txt", "PLY, OBJ, OFF and STL"}},

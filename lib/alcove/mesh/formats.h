@@ -10,7 +10,8 @@ namespace alcove {
 /// read_mesh() of a file in memory.
 Mesh read_bytes(const FileBytes& file);
 
-// Each throws InputError for damage. A mesh without faces is left to read_mesh() to refuse.
+// Each throws InputError for damage. A mesh without faces is left to read_bytes() to refuse where no line of
+// the file says that there are none.
 Mesh read_ply(const FileBytes& file);
 Mesh read_obj(const FileBytes& file);
 Mesh read_off(const FileBytes& file);
@@ -26,6 +27,9 @@ std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path
                                    const WriteOptions& options);
 std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file,
                                    const WriteOptions& options);
+
+/// \throw InputError for a file of `count` points and no faces, naming the line at `place` that says so.
+[[noreturn]] void fail_without_faces(const FileBytes& file, const char* place, std::size_t count);
 
 /// Ends the face whose corners were pushed since the last call. \throw LimitError beyond 2^32 corners.
 void close_face(Mesh& mesh);

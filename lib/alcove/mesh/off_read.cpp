@@ -142,6 +142,8 @@ class OffReader {
                      [&](const std::string& message) { file_.fail_at_line(counts, message); });
         for (std::size_t v = 0; v < vertices_; ++v)
             read_text_vertex(v);
+        if (faces_ == 0)
+            fail_without_faces(file_, counts, vertices_);
         for (std::size_t f = 0; f < faces_; ++f)
             read_text_face(f);
         if (!text_.at_end())

@@ -115,6 +115,7 @@ class HeaderParser {
         if (elements.size() == most_names)
             fail("more than " + grouped(most_names) + " elements; export fewer");
         elements.push_back({std::string(words[1]), count, {}, {}});
+        header_.element_line.push_back(line_.data());
     }
 
     void parse_property(const std::vector<std::string_view>& words) {

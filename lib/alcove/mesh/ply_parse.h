@@ -12,6 +12,7 @@ struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
     PlyDocument document;                   ///< its elements without rows
     const char* body = nullptr;             ///< the first byte behind end_header
+    std::vector<const char*> element_line;  ///< where each element is announced
     std::vector<const char*> element_begin; ///< where the rows of each element begin, once they are parsed
 };
 

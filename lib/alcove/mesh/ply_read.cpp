@@ -128,8 +128,6 @@ void read_colors(const PlyElement& element, std::vector<Color>& colors) {
 
 void read_faces(const FileBytes& file, const PlyHeader& header, const PlyElement& faces, Mesh& mesh) {
     const PlyProperty* list = corner_list(faces);
-    if (list == nullptr)
-        return;
     const std::size_t size = size_of(list->type);
     reserve_huge(mesh.face_begin, faces.count + 1);
     reserve_huge(mesh.corners, (faces.rows.size() - faces.count * faces.smallest_row()) / size);
@@ -191,15 +189,19 @@ Mesh read_ply(const FileBytes& file) {
     Mesh mesh;
     if (const std::size_t left = parse_ply_rows(file, header); left > 0)
         mesh.warnings.push_back(grouped(left) + " bytes behind the last row were not read");
+    if (faces == nullptr)
+        fail_without_faces(file, header.body - 1, vertices->count);
+    if (faces->count == 0)
+        fail_without_faces(
+            file, header.element_line[static_cast<std::size_t>(faces - header.document.elements.data())],
+            vertices->count);
     read_components(*vertices, *find_all<3>(*vertices, {"x", "y", "z"}), mesh.positions);
     read_normals(*vertices, mesh);
     read_vertex_uvs(*vertices, mesh);
     read_colors(*vertices, mesh.vertex_colors);
-    if (faces != nullptr) {
-        read_faces(file, header, *faces, mesh);
-        read_corner_uvs(*faces, mesh);
-        read_colors(*faces, mesh.face_colors);
-    }
+    read_faces(file, header, *faces, mesh);
+    read_corner_uvs(*faces, mesh);
+    read_colors(*faces, mesh.face_colors);
     mesh.source = std::make_shared<PlyDocument>(std::move(header.document));
     return mesh;
 }

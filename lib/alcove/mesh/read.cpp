@@ -39,6 +39,11 @@ const Format& format_of(const FileBytes& file) {
     file.fail("is no mesh of a known format; PLY, OBJ, OFF and STL can be read");
 }
 
+std::string points_without_faces(std::size_t count) {
+    return "holds " + counted(count, "point", "points") +
+           " but no faces; a surface is needed: reconstruct one first";
+}
+
 void warn_of_odd_geometry(Mesh& mesh) {
     const auto non_finite = std::count_if(mesh.positions.begin(), mesh.positions.end(),
                                           [](const Vec3d& p) { return !is_finite(p); });
@@ -63,8 +68,7 @@ Mesh read_bytes(const FileBytes& file) {
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
     if (mesh.face_count() == 0)
-        file.fail("holds " + counted(mesh.vertex_count(), "point", "points") +
-                  " but no faces; a surface is needed: reconstruct one first");
+        file.fail(points_without_faces(mesh.vertex_count()));
     warn_of_odd_geometry(mesh);
     return mesh;
 }
@@ -75,6 +79,10 @@ Mesh read_mesh(const std::filesystem::path& path) {
     } catch (const std::bad_alloc&) {
         throw LimitError(path.string() + ": does not fit in memory; simplify or split the mesh");
     }
+}
+
+void fail_without_faces(const FileBytes& file, const char* place, std::size_t count) {
+    file.fail_at_line(place, "the file " + points_without_faces(count));
 }
 
 void close_face(Mesh& mesh) {
