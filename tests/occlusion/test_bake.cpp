@@ -69,7 +69,8 @@ TEST(Catalog, EveryMethodSaysWhatItIsAndBakes) {
             EXPECT_EQ(&find_method(method.name), &method);
         else
             EXPECT_THROW(find_method(method.name), InputError);
-        const ChannelValues values = method.bake(surfels, plane, {}, method.gives, {});
+        const ChannelValues values =
+            method.bake(surfels, spatial_order(surfels), plane, {}, method.gives, {});
         for (const ChannelInfo& channel : channels) {
             ASSERT_EQ(values[channel.channel].size(),
                       method.gives.has(channel.channel) ? surfels.size() * channel.components : 0);

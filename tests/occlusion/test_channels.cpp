@@ -147,12 +147,13 @@ TEST(Settings, AreCheckedByNameAndRange) {
 TEST(Settings, EveryParameterStartsInRangeAndIsSetByItsName) {
     const test::DocumentsScene scene;
     const std::vector<Surfel> surfels = scene.surfels(300);
+    const std::vector<std::uint32_t> order = spatial_order(surfels);
     const Occluders occluders = with_ground(scene.field);
     for (const Method& method : catalog()) {
         const auto baked = [&](std::vector<std::pair<std::string, double>> parameters) {
             const Settings settings{.radius = 0.5f, .parameters = std::move(parameters)};
             check_settings(std::vector{&method}, settings);
-            return method.bake(surfels, occluders, settings, method.gives, {});
+            return method.bake(surfels, order, occluders, settings, method.gives, {});
         };
         const ChannelValues standard = baked({});
         for (const ParameterInfo& p : method.parameters()) {

@@ -22,18 +22,18 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 /// others.
 using ChannelValues = PerChannel<std::vector<float>>;
 
-/// Every wanted channel that the estimator gives, in one pass over the surfels; what is missing of a surfel
-/// without a normal is in `channels`. The values do not depend on the number of threads nor on the order of the
-/// surfels. Cost: that of the estimator, a surfel.
+/// Every wanted channel that the estimator gives, in one pass over the surfels along their spatial_order(); what
+/// is missing of a surfel without a normal is in `channels`. The values do not depend on the number of threads nor
+/// on the order of the surfels. Cost: that of the estimator, a surfel.
 template <class F, Estimator<F> E>
-ChannelValues bake_channels(std::span<const Surfel> surfels, const F& field, const E& estimator,
-                            ChannelSet wanted, const Progress& progress = {}) {
+ChannelValues bake_channels(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                            const F& field, const E& estimator, ChannelSet wanted,
+                            const Progress& progress = {}) {
     wanted = wanted & channels_of<E>();
     ChannelValues baked;
     for (const ChannelInfo& channel : channels)
         if (wanted.has(channel.channel))
             baked[channel.channel].assign(surfels.size() * channel.components, channel.missing);
-    const std::vector<std::uint32_t> order = spatial_order(surfels);
     constexpr std::size_t grain = 16 * SurfelBatch::capacity;
     std::mutex progress_mutex;
     std::size_t finished = 0;
@@ -62,6 +62,12 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const F& field, con
         }
     });
     return baked;
+}
+
+template <class F, Estimator<F> E>
+ChannelValues bake_channels(std::span<const Surfel> surfels, const F& field, const E& estimator,
+                            ChannelSet wanted, const Progress& progress = {}) {
+    return bake_channels(surfels, spatial_order(surfels), field, estimator, wanted, progress);
 }
 
 /// The ao alone: a value a surfel, 1 where there is no normal.

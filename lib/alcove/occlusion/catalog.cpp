@@ -77,17 +77,18 @@ constexpr Method method() {
             on_mesh || on_both,
             document_radius_of<E>(),
             parameters_of<E>,
-            [](std::span<const Surfel> surfels, const Occluders& occluders, const Settings& settings,
-               ChannelSet wanted, const Progress& progress) {
+            [](std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+               const Occluders& occluders, const Settings& settings, ChannelSet wanted,
+               const Progress& progress) {
                 if constexpr (on_both)
-                    return bake_channels(surfels, occluders.field(), occluders.rays(),
+                    return bake_channels(surfels, order, occluders.field(), occluders.rays(),
                                          with_settings<E>(settings), wanted, progress);
                 else if constexpr (on_mesh)
-                    return bake_channels(surfels, occluders.rays(), with_settings<E>(settings), wanted,
+                    return bake_channels(surfels, order, occluders.rays(), with_settings<E>(settings), wanted,
                                          progress);
                 else
-                    return bake_channels(surfels, occluders.field(), with_settings<E>(settings), wanted,
-                                         progress);
+                    return bake_channels(surfels, order, occluders.field(), with_settings<E>(settings),
+                                         wanted, progress);
             }};
 }
 
@@ -161,6 +162,7 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& oc
                             const Settings& settings, ChannelSet wanted, const Progress& progress) {
     const std::vector<const Method*> needed = methods_for(chosen, wanted);
     check_settings(needed, settings);
+    const std::vector<std::uint32_t> order = spatial_order(surfels);
     ChannelValues baked;
     ChannelSet left = wanted;
     for (std::size_t i = 0; i < needed.size(); ++i) {
@@ -168,7 +170,7 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& oc
             progress((static_cast<double>(i) + part) / static_cast<double>(needed.size()));
         };
         ChannelValues part =
-            needed[i]->bake(surfels, occluders, settings, left, progress ? done : Progress{});
+            needed[i]->bake(surfels, order, occluders, settings, left, progress ? done : Progress{});
         for (const ChannelInfo& channel : channels)
             if (!part[channel.channel].empty())
                 baked[channel.channel] = std::move(part[channel.channel]);

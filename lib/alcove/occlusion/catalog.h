@@ -40,9 +40,10 @@ struct Method {
     bool asks_rays;        ///< whether it traces the triangles
     float document_radius; ///< that the constants of the formula stand for; 0 where it has none
     std::vector<ParameterInfo> (*parameters)();
-    /// Settings of parameters the method has not are passed over.
-    ChannelValues (*bake)(std::span<const Surfel>, const Occluders&, const Settings&, ChannelSet wanted,
-                          const Progress&);
+    /// Along the spatial_order(), which methods of one bake share. Settings of parameters the method has not are
+    /// passed over.
+    ChannelValues (*bake)(std::span<const Surfel>, std::span<const std::uint32_t> order, const Occluders&,
+                          const Settings&, ChannelSet wanted, const Progress&);
 };
 
 /// All methods, in the order of the documentation.

@@ -11,10 +11,10 @@ constexpr std::size_t grain = 1024;
 
 }
 
-ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field, const RaySurface& surface,
-                            const Guided& guided, ChannelSet wanted, const Progress& progress) {
+ChannelValues bake_channels(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                            const AnyField& field, const RaySurface& surface, const Guided& guided,
+                            ChannelSet wanted, const Progress& progress) {
     wanted = wanted & Guided::gives;
-    const std::vector<std::uint32_t> order = spatial_order(surfels);
     const bool with_bent = wanted.has(Channel::bent_normal);
     SharedRays shared(surfels, order, guided, with_bent);
     std::mutex progress_mutex;

@@ -55,7 +55,14 @@ struct Guided {
 
 /// As the other bakes: every wanted channel that Guided gives, whatever the number of threads and the order of
 /// the surfels. `field` and `surface` are of the same mesh.
-ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field, const RaySurface& surface,
-                            const Guided& guided, ChannelSet wanted, const Progress& progress = {});
+ChannelValues bake_channels(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                            const AnyField& field, const RaySurface& surface, const Guided& guided,
+                            ChannelSet wanted, const Progress& progress = {});
+
+inline ChannelValues bake_channels(std::span<const Surfel> surfels, const AnyField& field,
+                                   const RaySurface& surface, const Guided& guided, ChannelSet wanted,
+                                   const Progress& progress = {}) {
+    return bake_channels(surfels, spatial_order(surfels), field, surface, guided, wanted, progress);
+}
 
 }
