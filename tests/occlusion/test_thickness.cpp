@@ -1,5 +1,6 @@
 #include "alcove/occlusion/methods/thickness.h"
 
+#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "alcove/occlusion/bake.h"
 #include "shapes.h"
@@ -21,6 +22,16 @@ TEST(Thickness, OfExactShapes) {
     EXPECT_EQ(thickness(top, Cuboid{{0, 0, 0}, {1, 0.3f, 1}}, 0.5f).front(), 0.5f);
     const Vec3 n = glm::normalize(Vec3(1, 2, 3));
     EXPECT_NEAR(thickness({{0.7f * n, n}}, Sphere{{0, 0, 0}, 0.7f}, 2.0f).front(), 1.4f, 1e-3f);
+}
+
+TEST(Thickness, IsOfTheFirstPlateWhereMoreStandBehind) {
+    for (const float thick : {0.003f, 0.01f, 0.03f, 0.1f, 0.3f})
+        for (const float gap : {0.002f, 0.02f, 0.2f}) {
+            const Union plates(Cuboid{{0, -thick / 2, 0}, {2, thick / 2, 2}},
+                               Cuboid{{0, -thick - gap - 0.5f, 0}, {2, 0.5f, 2}});
+            const std::vector<Surfel> top{{{0.1f, 0, 0.2f}, {0, 1, 0}}};
+            EXPECT_NEAR(thickness(top, plates, 0.7f).front(), thick, 1e-3f);
+        }
 }
 
 /// A plate seen from points of its top, away from the rim, off the voxels' planes.

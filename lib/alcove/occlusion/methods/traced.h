@@ -7,28 +7,39 @@
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/parameter.h"
 
+#include <numeric>
+
 namespace alcove {
 
 /// The heights along the normals from which rays may start: where the field itself answers at least
 /// `clearance`, at most `highest`. A surfel lies on the true surface, so beside the interpolated one of a
 /// grid, and the normal of a sharp edge leaves its faces slowly; a fixed height safe for all of them (a
-/// voxel) is the largest error of tracing through a grid, these are a tenth of it. Cost: 6 map() calls a
-/// surfel.
+/// voxel) is the largest error of tracing through a grid, these are a tenth of it. Cost: 1 to 6 map()
+/// calls a surfel.
 template <Field F>
 void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest,
                       float* heights) {
     ProbeBatch probes;
     SurfelBatch::Values distances;
-    std::fill_n(heights, surfels.count, clearance);
-    for (int step = 0; step < 6; ++step) {
-        for (std::size_t i = 0; i < surfels.count; ++i)
-            probes.set(i, surfels.position(i) + heights[i] * surfels.normal(i));
-        map_probes(field, probes, surfels.count, any_reach, distances.data());
-        for (std::size_t i = 0; i < surfels.count; ++i)
-            if (distances[i] < clearance)
-                heights[i] *= distances[i] > 0.25f * clearance ? clearance / distances[i] : 2.0f;
-        for (std::size_t i = 0; i < surfels.count; ++i)
-            heights[i] = std::min(heights[i], highest);
+    std::array<std::uint8_t, SurfelBatch::capacity> low; // the surfels that are to rise
+    std::size_t count = surfels.count;
+    std::iota(low.begin(), low.begin() + count, std::uint8_t{0});
+    std::fill_n(heights, count, clearance);
+    for (int step = 0; step < 6 && count > 0; ++step) {
+        for (std::size_t k = 0; k < count; ++k)
+            probes.set(k, surfels.position(low[k]) + heights[low[k]] * surfels.normal(low[k]));
+        map_probes(field, probes, count, highest, distances.data());
+        std::size_t left = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const float d = distances[k];
+            if (d >= clearance)
+                continue;
+            float& height = heights[low[k]];
+            height = std::min(height * (d > 0.25f * clearance ? clearance / d : 2.0f), highest);
+            low[left] = low[k];
+            left += height < highest;
+        }
+        count = left;
     }
 }
 
@@ -46,7 +57,8 @@ float longest_ray(const F& field, float radius) {
 ///
 /// V = 0 where the ray meets the surface within the radius. The bent normal is the mean of the open ones,
 /// weighted by cos θ in both. Source: "04 Ambient Occlusion", lecture notes. Rays start where the field answers
-/// a tenth of a voxel, or 1e-4 for exact fields. Cost: 6 + rays × 5–20 map() calls a surfel.
+/// a tenth of a voxel, or 1e-4 for exact fields. Cost: 1 to 6, and rays × 5–20 map() calls a
+/// surfel.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< a surfel, >= 1
@@ -57,7 +69,7 @@ struct Traced {
     static constexpr std::string_view summary = "sphere-traced rays over the hemisphere, cosine-weighted";
     static constexpr std::string_view formula = "1/N sum V(w_i)";
     static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
-    static constexpr std::string_view cost = "6 + rays (64) x 5-20";
+    static constexpr std::string_view cost = "1-6 + rays (64) x 5-20";
     static constexpr std::string_view good =
         "tends to exact rays as rays and voxels do; needs no mesh; gives bent normals";
     static constexpr std::string_view bad =
