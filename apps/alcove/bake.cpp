@@ -258,7 +258,7 @@ void add_bake(CLI::App& program) {
     add_method_options(*verb, options->method, "Estimator: ");
     verb->add_option("--attributes", options->attributes,
                      "What to bake, with commas between: ao, ao_short, ao_long (multiscale), convexity, "
-                     "bent_normal, thickness")
+                     "bent_normal (traced, guided, exact: of their rays; others: of four probes), thickness")
         ->type_name("NAMES")
         ->capture_default_str();
     verb->add_option("--normals", options->normals, "auto: the file's, else area-weighted; file; area")

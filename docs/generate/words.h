@@ -33,7 +33,8 @@ inline const std::map<std::string_view, std::string_view> honest_words{
                 "above a point is near a "
                 "wall long before that wall hides much of the sky. Where the ground is open but for "
                 "something at its side, as "
-                "around the ring, it is right about where the shade lies and wrong about how fast it fades."},
+                "around the ring, it is right about where the shade lies and wrong about how fast it fades. "
+                "Its bent normals, our own addition, lean the right way, but too little deep in corners."},
     {"exponential", "Nearly white: the weights halve from the first probe on, and the first probe, a fifth "
                     "of the radius up, is the "
                     "one that a wide valley does not reach. On the scene there is a rim where the shade of "

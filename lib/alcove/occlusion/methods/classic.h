@@ -1,7 +1,7 @@
 /// Five probes along the normal, weighted.
 #pragma once
 
-#include "alcove/occlusion/estimator.h"
+#include "alcove/occlusion/methods/ring_bent_normal.h"
 #include "alcove/occlusion/parameter.h"
 
 namespace alcove {
@@ -17,8 +17,9 @@ namespace alcove {
 /// Detailed Reference" (2026), after A. Evans, "Fast approximations for global illumination on dynamic
 /// scenes" (2006). Exact on planes (ao 1, convexity ½) and convex shapes (ao 1). Thinner than two radii a solid is
 /// taken for more convex than it is, for its far side is near: a plate of 0.1, 0.5, 1 or 2 radii has a convexity of
-/// 0.58, 0.77, 0.76 or 0.5. Behind an open surface (Sign::sheet) the first voxel tells little. Cost: `samples` map() calls a
-/// surfel, twice that with convexity.
+/// 0.58, 0.77, 0.76 or 0.5. Behind an open surface (Sign::sheet) the first voxel tells little. The bent normal is that
+/// of ring_bent_normal(), which no document has. Cost: `samples` map() calls a surfel, twice that with convexity,
+/// 4 more with the bent normal.
 struct Classic {
     float radius = 0.1f;   ///< furthest probe, > 0
     int samples = 5;       ///< >= 2
@@ -31,12 +32,13 @@ struct Classic {
     static constexpr std::string_view formula =
         "clamp(1 - k sum w_i (h_i - d(p + h_i n))), k = 3, w_i = 0.95^i, h_i = 0.01 + 0.12 i/4, i = 0..4";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost = "samples (5); twice that with convexity";
+    static constexpr std::string_view cost =
+        "samples (5); twice that with convexity; 4 more with bent_normal";
     static constexpr std::string_view good =
-        "quick and smooth; 1 on planes and convex shapes; gives convexity";
+        "quick and smooth; 1 on planes and convex shapes; gives convexity and rough bent normals";
     static constexpr std::string_view bad =
         "sees only what is above the point: too dark in wide corners, blind to what stands aside";
-    static constexpr ChannelSet gives = Channel::ao | Channel::convexity;
+    static constexpr ChannelSet gives = Channel::ao | Channel::convexity | Channel::bent_normal;
     static constexpr float document_radius = 0.13f;
 
     static constexpr auto parameters() {
@@ -53,11 +55,13 @@ struct Classic {
         probe(field, surfels, 1.0f, outside.data());
         for (std::size_t k = 0; k < surfels.count; ++k)
             out[Channel::ao][k] = 1.0f - outside[k];
-        if (!out[Channel::convexity])
-            return;
-        probe(field, surfels, -1.0f, inside.data());
-        for (std::size_t k = 0; k < surfels.count; ++k)
-            out[Channel::convexity][k] = 0.5f + 0.5f * (inside[k] - outside[k]);
+        if (out[Channel::convexity]) {
+            probe(field, surfels, -1.0f, inside.data());
+            for (std::size_t k = 0; k < surfels.count; ++k)
+                out[Channel::convexity][k] = 0.5f + 0.5f * (inside[k] - outside[k]);
+        }
+        if (out[Channel::bent_normal])
+            ring_bent_normal(field, surfels, radius, out[Channel::ao], out[Channel::bent_normal]);
     }
 
   private:

@@ -1,0 +1,47 @@
+/// A bent normal from four probes around the normal.
+#pragma once
+
+#include "alcove/occlusion/directions.h"
+#include "alcove/occlusion/estimator.h"
+
+namespace alcove {
+
+/// Each probe stands half a radius up the normal and as much aside, and tells what share of that height is open:
+///
+///     bent = normalize(3 ao n + Σ o_i (n + t_i)),   o_i = clamp(d(p + R/2 (n + t_i)) / (R/2))
+///
+/// with t_i the four directions along the axes of the surfel's own Basis; (0, 0, 0) where neither ao nor a probe
+/// is open. n on planes and convex shapes. Source: our own, of no document; tilt, height and the 3 are the nearest
+/// to exact rays of those tried on the fitted meshes of docs/calibrated.md. On the mean of the meshes never fitted
+/// it is 3.0, 1.9 and 1.3 degrees from 1,024 rays at radii of 20, 10 and 5 % of D, where the normal is 5.1, 3.5
+/// and 2.3; on a few of them it is no nearer than the normal. Deep in corners it leans too little, and by up to 35
+/// degrees aside where the probes stand askew to the walls. Cost: 4 map() calls a surfel.
+template <Field F>
+void ring_bent_normal(const F& field, const SurfelBatch& surfels, float radius, const float* ao,
+                      float* bent) {
+    const float height = 0.5f * radius, per_height = 1.0f / height;
+    // The directions along one axis, then those along the other.
+    std::array<ProbeBatch, 4> probes;
+    for (std::size_t k = 0; k < surfels.count; ++k) {
+        const Basis basis(surfels.normal(k));
+        const Vec3 above = surfels.position(k) + height * basis.normal;
+        probes[0].set(k, above + height * basis.tangent);
+        probes[1].set(k, above - height * basis.tangent);
+        probes[2].set(k, above + height * basis.bitangent);
+        probes[3].set(k, above - height * basis.bitangent);
+    }
+    std::array<SurfelBatch::Values, 4> open;
+    for (std::size_t i = 0; i < 4; ++i) {
+        map_probes(field, probes[i], surfels.count, std::numbers::sqrt2_v<float> * height, open[i].data());
+        for (std::size_t k = 0; k < surfels.count; ++k)
+            open[i][k] = std::clamp(open[i][k] * per_height, 0.0f, 1.0f);
+    }
+    for (std::size_t k = 0; k < surfels.count; ++k) {
+        const Vec3 sum(open[0][k] - open[1][k], open[2][k] - open[3][k],
+                       3.0f * ao[k] + open[0][k] + open[1][k] + open[2][k] + open[3][k]);
+        const Vec3 v = sum.z > 0.0f ? glm::normalize(Basis(surfels.normal(k)).to_world(sum)) : Vec3(0.0f);
+        bent[3 * k] = v.x, bent[3 * k + 1] = v.y, bent[3 * k + 2] = v.z;
+    }
+}
+
+}
