@@ -171,6 +171,14 @@ void write_baked(const BakeOptions& options, ChannelSet wanted, VoxelizedMesh& i
         input.warnings.push_back(std::move(lost));
 }
 
+std::string rmse_text(const std::optional<double>& rmse) {
+    constexpr double resolution = 1e-3; // of a pilot
+    if (!rmse)
+        return "";
+    return *rmse < resolution ? fmt::format(", RMSE below {}", resolution)
+                              : fmt::format(", RMSE about {:.2g}", *rmse);
+}
+
 void print_result(const BakeOptions& options, ChannelSet wanted, const VoxelizedMesh& input,
                   const Baked& baked, std::size_t grid_bytes, const nlohmann::ordered_json& seconds) {
     const auto or_null = [](bool there, const auto& value) {
@@ -198,7 +206,7 @@ void print_result(const BakeOptions& options, ChannelSet wanted, const Voxelized
     else if (!options.common.quiet)
         fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}{}\n", options.output, names_of(wanted),
                    grouped(input.mesh.vertex_count()), baked.choice.label(), radius, baked.grid.text(),
-                   baked.rmse ? fmt::format(", RMSE about {:.2g}", *baked.rmse) : "");
+                   rmse_text(baked.rmse));
 }
 
 void run(const BakeOptions& options) {

@@ -3,6 +3,8 @@
 #include "alcove/accuracy/planned_bake.h"
 #include "alcove/grid/plan.h"
 
+#include <map>
+
 namespace alcove::cli {
 
 Needs BakeTask::needs() const {
@@ -40,9 +42,12 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
     baked.grid_seconds = watch.lap();
     const Pilot pilot(surfels, surface, radius);
     const bool has_grid = !input.stack.levels.empty();
+    const std::size_t known_warnings = input.warnings.size();
+    std::map<float, GridFacts> grids;
     const auto make_field = [&](float largest_voxel) {
         Stopwatch making;
         if (!has_grid) {
+            input.warnings.resize(known_warnings); // another grid says the same again
             input.options.grid.largest_voxel = largest_voxel;
             make_stack(input, common);
             surroundings.voxelize(input);
@@ -50,6 +55,7 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
         AnyField field =
             surroundings.around(input.mesh, input.triangles, input.stack, input.frame, {.field = true})
                 .field();
+        grids[largest_voxel] = facts_of(input.stack);
         baked.grid_seconds += making.lap();
         return field;
     };
@@ -66,8 +72,10 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
                                        progress);
     baked.choice = planned.plan.choice;
     baked.values = std::move(planned.values);
-    if (has_grid || planned.plan.largest_voxel > 0.0f)
+    if (has_grid)
         baked.grid = facts_of(input.stack);
+    else if (planned.plan.largest_voxel > 0.0f)
+        baked.grid = grids.at(planned.plan.largest_voxel);
     if (!pilot.empty())
         baked.rmse = planned.rmse;
     return baked;

@@ -12,7 +12,9 @@ void add_planning_options(CLI::App& verb, PlanningRequest& request) {
                     throw UsageError(fmt::format("--error takes an RMSE from 0.001 to 1, not '{:g}'", error));
                 request.error = error;
             },
-            "Choose the cheapest method, rays and voxel whose RMSE against exact rays is E at most")
+            "Choose the cheapest method, rays and voxel whose RMSE against exact rays is E at most (0.001 to "
+            "1); goes "
+            "without --method, --samples, --rays, --set, --voxel and --self")
         ->type_name("E");
     verb.add_flag_callback(
         "--no-pilot", [&request] { request.pilot = false; },
@@ -28,6 +30,9 @@ void check_planning(const PlanningRequest& request, const CLI::App& verb) {
         if (verb.count(chosen) > 0)
             throw UsageError(
                 fmt::format("--error chooses method, rays and voxel itself: leave out {}", chosen));
+    if (verb.get_option("--radius")->as<std::string>().ends_with("vx"))
+        throw UsageError(
+            "--error chooses the voxel that vx stands for: give --radius as 0.2 (scene units) or 10%");
     if (verb.count("--self") > 0)
         throw UsageError("--error plans the whole mesh, --self bakes its parts: leave out either");
 }

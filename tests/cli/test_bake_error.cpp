@@ -70,8 +70,9 @@ TEST_F(BakeError, LeavesNothingElseToChoose) {
     write("cube.off", cube_off);
     const std::vector<std::string> planned{"bake", "cube.off", "-o", "a.ply", "--error", "0.02"};
     const std::vector<std::vector<std::string>> chosen{
-        {"--method", "exact"}, {"--rays", "4"}, {"--samples", "4"}, {"--set", "rays=4"},
-        {"--voxel", "1%"},     {"--self"},      {"--no-pilot"},     {"--attributes", "convexity"}};
+        {"--method", "exact"}, {"--rays", "4"},     {"--samples", "4"},
+        {"--set", "rays=4"},   {"--voxel", "1%"},   {"--self"},
+        {"--no-pilot"},        {"--radius", "8vx"}, {"--attributes", "convexity"}};
     for (const std::vector<std::string>& more : chosen) {
         std::vector<std::string> arguments = planned;
         arguments.insert(arguments.end(), more.begin(), more.end());

@@ -54,18 +54,19 @@ double Pilot::rmse_of_exact(int rays, std::uint32_t seed) const {
 }
 
 int Pilot::rays_for(double error, std::uint32_t seed) const {
-    int rays = 16;
-    for (int attempt = 0; attempt < 5; ++attempt) {
+    // The error falls with rays, but not at each of them: what is returned was tried.
+    constexpr int most_attempts = 16;
+    int rays = 16, enough = most_rays;
+    for (int attempt = 0; attempt < most_attempts && rays < enough; ++attempt) {
         const double rmse = rmse_of_exact(rays, seed);
-        if (rmse <= error && rmse > 0.9 * error)
+        if (rmse <= error)
+            enough = rays;
+        if (rmse <= error && rmse > 0.85 * error)
             break;
         const double factor = std::pow(std::max(rmse, 0.1 * error) / (0.96 * error), 1.0 / exponent);
-        const int next = static_cast<int>(std::clamp(std::ceil(rays * factor), 1.0, double(most_rays)));
-        if (next == rays)
-            break;
-        rays = next;
+        rays = static_cast<int>(std::clamp(std::ceil(rays * factor), 1.0, double(most_rays)));
     }
-    return rays;
+    return enough < most_rays ? enough : rays;
 }
 
 }

@@ -32,7 +32,7 @@ class Pilot {
     double rmse(std::span<const float> ao) const;
     /// Of exact rays at the pilot's radius. Cost: as many rays for each of its surfels.
     double rmse_of_exact(int rays, std::uint32_t seed) const;
-    /// How many exact rays a surfel it takes for that error, > 0; 2^20 at most.
+    /// How many exact rays a surfel hold that error at the pilot's surfels, > 0; 2^20 at most.
     int rays_for(double error, std::uint32_t seed) const;
 
   private:

@@ -19,7 +19,8 @@ struct PlannedBake {
 };
 
 /// Bakes by the cheapest plan, and by others where its error turns out too large at the pilot's surfels; exact
-/// rays end it. The wanted channels hold ao; those that exact rays do not give need `request.has_grid`. `surface` is what the pilot was made with.
+/// rays end it. The wanted channels hold ao; those that exact rays do not give need `request.has_grid`. `surface`
+/// is what the pilot was made with.
 PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surface,
                          const MakeField& make_field, const Pilot& pilot, const PlanRequest& request,
                          const Progress& progress = {});

@@ -76,7 +76,8 @@ struct Thickness {
   private:
     /// Moves on to where the way is known to be free: through the balls around probes each four times as deep as
     /// the one before, as long as they overlap. A ray along the normal leaves the surface as fast as it goes, so
-    /// most do far beyond what steps from ball to ball would reach. B. Keinert et al., "Enhanced Sphere Tracing" (2014).
+    /// most get far beyond what steps from ball to ball would reach. B. Keinert et al., "Enhanced Sphere Tracing"
+    /// (2014).
     template <Field F>
     static void leave_surface(const F& inside, const SurfelBatch& turned, float clearance, float far,
                               float* depths) {
