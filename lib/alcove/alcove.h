@@ -66,6 +66,7 @@
 #include "alcove/occlusion/methods/jittered.h"
 #include "alcove/occlusion/methods/multiplicative.h"
 #include "alcove/occlusion/methods/multiscale.h"
+#include "alcove/occlusion/methods/ring_bent_normal.h"
 #include "alcove/occlusion/methods/thickness.h"
 #include "alcove/occlusion/methods/traced.h"
 
