@@ -7,5 +7,8 @@ build=${1:-build}
 
 git ls-files -z '*.h' '*.cpp' | xargs -0 clang-format --dry-run -Werror
 git ls-files -z '*.sh' .ci/run | xargs -0 shellcheck
-git ls-files -z 'lib/*.cpp' 'apps/*.cpp' | xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet -p "$build" \
+# Shallow: the analyzer's paths through few calls, for a third of its time.
+shallow=(-extra-arg=-Xclang -extra-arg=-analyzer-config -extra-arg=-Xclang -extra-arg=mode=shallow)
+git ls-files -z 'lib/*.cpp' 'apps/*.cpp' |
+    xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet -p "$build" "${shallow[@]}" \
     2> >(grep -v 'warnings generated' >&2)

@@ -7,7 +7,9 @@
 #include "alcove/mesh/source.h"
 #include "alcove/mesh/write.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -101,7 +103,7 @@ BakeTask parse_task(const BakeOptions& options) {
     task.planning = options.planning;
     task.seed = options.method.seed.value_or(0);
     if (!options.planning.error)
-        task.method = &parse_method(options.method.method);
+        task.method = needed_methods(parse_method(options.method.method), task.wanted).front();
     else if (!task.wanted.has(Channel::ao))
         throw UsageError("--error is that of ao: it needs ao among the --attributes");
     const MethodRequest seeded{.seed = options.method.seed};

@@ -8,7 +8,9 @@
 #include "alcove/grid/mesh_grid.h"
 #include "alcove/mesh/read.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,9 @@
 #include "alcove/render/image.h"
 #include "alcove/render/subject.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <fstream>

@@ -3,6 +3,7 @@
 
 #include "alcove/errors.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

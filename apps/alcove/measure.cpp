@@ -9,7 +9,9 @@
 #include "alcove/mesh/read.h"
 #include "alcove/parallel.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -2,20 +2,13 @@
 
 #include "alcove/errors.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <charconv>
 
 namespace alcove::cli {
 namespace {
-
-std::vector<const Method*> methods_of(const Method& method, ChannelSet wanted) {
-    try {
-        return methods_for(method, wanted);
-    } catch (const InputError& impossible) {
-        throw UsageError(impossible.what());
-    }
-}
 
 double parse_value(const std::string& setting, const std::string& text) {
     if (text == "true" || text == "false")
@@ -50,8 +43,16 @@ const Method& parse_method(const std::string& name) {
     }
 }
 
+std::vector<const Method*> needed_methods(const Method& chosen, ChannelSet wanted) {
+    try {
+        return methods_for(chosen, wanted);
+    } catch (const InputError& impossible) {
+        throw UsageError(impossible.what());
+    }
+}
+
 Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted) {
-    const std::vector<const Method*> methods = methods_of(method, wanted);
+    const std::vector<const Method*> methods = needed_methods(method, wanted);
     Settings settings;
     const auto set = [&](const std::string& option, std::string name, double value) {
         const Settings one{.parameters = {{std::move(name), value}}};

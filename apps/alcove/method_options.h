@@ -23,6 +23,9 @@ void add_method_options(CLI::App& verb, MethodRequest& request, const std::strin
 /// The estimator of that name. \throw UsageError listing the known ones.
 const Method& parse_method(const std::string& name);
 
+/// As methods_for(). \throw UsageError where that throws.
+std::vector<const Method*> needed_methods(const Method& chosen, ChannelSet wanted);
+
 /// The parameters that were set; the radius is not among them. \throw UsageError for what is no name=value, and
 /// for what the methods that give the wanted channels do not take.
 Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted);

@@ -2,8 +2,10 @@
 
 #include "alcove/occlusion/catalog.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 

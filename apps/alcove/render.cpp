@@ -10,7 +10,9 @@
 #include "alcove/grid/grid_io.h"
 #include "alcove/render/renderer.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -8,6 +8,7 @@
 #include "alcove/mesh/clip.h"
 #include "alcove/mesh/read.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

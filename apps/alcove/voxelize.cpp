@@ -4,7 +4,9 @@
 #include "alcove/grid/grid_io.h"
 #include "alcove/parallel.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 

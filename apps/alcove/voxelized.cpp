@@ -6,7 +6,9 @@
 #include "alcove/errors.h"
 #include "alcove/mesh/read.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -136,13 +136,30 @@ TEST(Settings, AreCheckedByNameAndRange) {
     expect_wrong("classic", "strength", INFINITY, "from 0 to 100");
     expect_wrong("traced", "cosine_weighted", 0.5, "whole number");
     expect_wrong("traced", "seed", 4294967296.0, "seed of traced");
-    // Where several methods are at work a parameter may be that of any.
+    // Where several methods are at work a parameter may be that of any, and is that of the first which has it.
     const std::vector<const Method*> two{&find_method("decay"), &find_method("traced")};
     EXPECT_NO_THROW(check_settings(two, {.parameters = {{"rays", 5}, {"linear", 1}}}));
     EXPECT_THROW(check_settings(two, {.parameters = {{"strength", 1}}}), InputError);
     EXPECT_THROW(bake_channels({}, with_ground(Plane{}), find_method("classic"),
                                {.parameters = {{"rays", 5}}}, Channel::ao),
                  InputError);
+}
+
+TEST(Settings, ReachTheFirstMethodThatHasThemAlone) {
+    const test::DocumentsScene scene;
+    const std::vector<Surfel> surfels = scene.surfels(300);
+    const Occluders occluders = with_ground(scene.field);
+    const ChannelSet wanted = Channel::ao | Channel::convexity;
+    const auto baked = [&](std::vector<std::pair<std::string, double>> parameters) {
+        return bake_channels(surfels, occluders, find_method("calibrated"),
+                             {.radius = 0.5f, .parameters = std::move(parameters)}, wanted);
+    };
+    const ChannelValues standard = baked({}), sampled = baked({{"samples", 10}}),
+                        weaker = baked({{"strength", 0.5}});
+    EXPECT_NE(sampled[Channel::ao], standard[Channel::ao]);
+    EXPECT_EQ(sampled[Channel::convexity], standard[Channel::convexity]);
+    EXPECT_EQ(weaker[Channel::ao], standard[Channel::ao]);
+    EXPECT_NE(weaker[Channel::convexity], standard[Channel::convexity]);
 }
 
 TEST(Settings, EveryParameterStartsInRangeAndIsSetByItsName) {

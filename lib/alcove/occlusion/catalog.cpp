@@ -18,7 +18,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 namespace alcove {
 namespace {
@@ -92,6 +95,28 @@ constexpr Method method() {
             }};
 }
 
+std::optional<ParameterInfo> find_parameter(const Method& method, std::string_view name) {
+    for (const ParameterInfo& parameter : method.parameters())
+        if (parameter.name == name)
+            return parameter;
+    return {};
+}
+
+/// The first of the methods that has the parameter.
+auto owner_of(std::string_view parameter, std::span<const Method* const> needed) {
+    return std::find_if(needed.begin(), needed.end(),
+                        [&](const Method* method) { return find_parameter(*method, parameter).has_value(); });
+}
+
+/// Those that are the method's own among the needed.
+Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
+    Settings own{.radius = all.radius};
+    for (const auto& setting : all.parameters)
+        if (const auto owner = owner_of(setting.first, needed); owner != needed.end() && *owner == method)
+            own.parameters.push_back(setting);
+    return own;
+}
+
 constexpr std::array methods{
     method<Classic>(),    method<Exponential>(), method<Decay>(),      method<Multiplicative>(),
     method<Multiscale>(), method<Jittered>(),    method<Hemisphere>(), method<HemisphereRandom>(),
@@ -135,26 +160,23 @@ std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted) 
 
 void check_settings(std::span<const Method* const> needed, const Settings& settings) {
     for (const auto& [name, value] : settings.parameters) {
-        bool known = false;
-        std::vector<std::string> names;
-        std::vector<std::string_view> methods;
-        for (const Method* method : needed) {
-            methods.push_back(method->name);
-            for (const ParameterInfo& p : method->parameters()) {
-                names.emplace_back(p.name);
-                if (p.name != name)
-                    continue;
-                known = true;
-                if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
-                    throw InputError(fmt::format(
-                        "{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name, method->name,
-                        p.integer ? "a whole number" : "a number", p.min, p.max, value));
+        const auto owner = owner_of(name, needed);
+        if (owner == needed.end()) {
+            std::vector<std::string_view> methods, names;
+            for (const Method* method : needed) {
+                methods.push_back(method->name);
+                for (const ParameterInfo& p : method->parameters())
+                    names.push_back(p.name);
             }
-        }
-        if (!known)
             throw InputError(fmt::format("{} has no parameter '{}'; there are: {}",
                                          fmt::join(methods, " and "), name,
                                          names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        }
+        const ParameterInfo p = *find_parameter(**owner, name);
+        if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
+            throw InputError(fmt::format("{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name,
+                                         (*owner)->name, p.integer ? "a whole number" : "a number", p.min,
+                                         p.max, value));
     }
 }
 
@@ -170,7 +192,8 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& oc
             progress((static_cast<double>(i) + part) / static_cast<double>(needed.size()));
         };
         ChannelValues part =
-            needed[i]->bake(surfels, order, occluders, settings, left, progress ? done : Progress{});
+            needed[i]->bake(surfels, order, occluders, settings_of(needed[i], needed, settings), left,
+                            progress ? done : Progress{});
         for (const ChannelInfo& channel : channels)
             if (!part[channel.channel].empty())
                 baked[channel.channel] = std::move(part[channel.channel]);

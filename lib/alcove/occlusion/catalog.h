@@ -21,7 +21,8 @@ struct ParameterInfo {
     std::string_view summary;
 };
 
-/// What a user sets: the radius of every estimator, and parameters by their names.
+/// What a user sets: the radius of every estimator, and parameters by their names. Where several methods bake, a
+/// parameter is that of the first which has it.
 struct Settings {
     float radius = 0.1f; ///< units of the field; may be infinite
     std::vector<std::pair<std::string, double>> parameters{};
