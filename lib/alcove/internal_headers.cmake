@@ -25,7 +25,7 @@ set(alcove_internal_headers
     mesh/text_scanner.h
     mesh/weld.h
     occlusion/neighbourhood.h
-    occlusion/linear_model.h
+    occlusion/quadratic_model.h
     occlusion/shared_rays.h
     occlusion/triangle_pairs.h
     render/camera_rays.h)
