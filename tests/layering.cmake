@@ -41,7 +41,7 @@ set(highway_only_in "^lib/alcove/(field/sample_bricks|grid/nearest|occlusion/nei
 set(fast_float_headers "^fast_float/")
 set(fast_float_only_in "^lib/alcove/mesh/")
 set(eigen_headers "^(Eigen|eigen3)/")
-set(eigen_only_in "^lib/alcove/occlusion/linear_model\\.cpp$")
+set(eigen_only_in "^lib/alcove/occlusion/quadratic_model\\.cpp$")
 set(cli11_headers "^CLI/")
 set(cli11_only_in "^apps/")
 set(json_headers "^nlohmann/")

@@ -18,4 +18,13 @@ void reserve_huge(std::vector<T>& values, std::size_t count) {
     prefer_huge_pages(values.data(), values.capacity() * sizeof(T));
 }
 
+/// A vector of `count` equal values, on huge pages.
+template <class T>
+std::vector<T> huge_vector(std::size_t count, const T& value = {}) {
+    std::vector<T> values;
+    reserve_huge(values, count);
+    values.resize(count, value);
+    return values;
+}
+
 }

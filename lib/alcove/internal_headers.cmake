@@ -24,7 +24,8 @@ set(alcove_internal_headers
     mesh/ply_parse.h
     mesh/text_scanner.h
     mesh/weld.h
-    occlusion/linear_model.h
     occlusion/neighbourhood.h
+    occlusion/quadratic_model.h
     occlusion/shared_rays.h
+    occlusion/triangle_pairs.h
     render/camera_rays.h)

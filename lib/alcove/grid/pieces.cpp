@@ -1,6 +1,7 @@
 #include "alcove/grid/pieces.h"
 
 #include "alcove/grid/radix_sort.h"
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ GroupedPieces grouped_pieces(std::span<const Vec3d> positions, std::span<const T
         count += block.whole.size() + block.parts.size();
     std::vector<Keyed> order;
     std::vector<Piece> parts;
-    order.reserve(count);
+    reserve_huge(order, count);
     for (const Cut& block : blocks) {
         order.insert(order.end(), block.whole.begin(), block.whole.end());
         for (const Keyed& part : block.parts)
@@ -132,7 +133,8 @@ GroupedPieces grouped_pieces(std::span<const Vec3d> positions, std::span<const T
     radix_sort(order, 3 * (std::ilogb(scale * extent) + 1));
 
     GroupedPieces sorted;
-    sorted.pieces.resize(count);
+    sorted.pieces = huge_vector<Piece>(count);
+    reserve_huge(sorted.begin, count + 1);
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t value = order[i].value;

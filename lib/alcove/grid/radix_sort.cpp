@@ -1,5 +1,6 @@
 #include "alcove/grid/radix_sort.h"
 
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ void radix_sort(std::vector<Keyed>& items, int bits) {
     const std::size_t digits = std::size_t{1} << digit_bits;
     const std::size_t grain = std::max(least_block, (items.size() + most_blocks - 1) / most_blocks);
     std::vector<Histogram> blocks((items.size() + grain - 1) / grain);
-    std::vector<Keyed> other(items.size());
+    std::vector<Keyed> other = huge_vector<Keyed>(items.size());
     for (int pass = 0; pass < passes; ++pass) {
         const auto digit = [&](const Keyed& item) { return item.key >> (pass * digit_bits) & (digits - 1); };
         parallel_for(items.size(), grain, [&](std::size_t begin, std::size_t end) {

@@ -1,5 +1,6 @@
 #include "alcove/grid/triangle_tree.h"
 
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -177,7 +178,7 @@ void add_level(std::vector<BoundsGroup>& bounds, std::size_t at, const Node* nod
 
 TriangleTree::TriangleTree(const GroupedPieces& grouped) {
     const auto groups_of = [](std::size_t count) { return (count + eight - 1) / eight; };
-    triangles.resize(grouped.begin.size() - 1);
+    triangles = huge_vector<TriangleGroup>(grouped.begin.size() - 1);
     parallel_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g)
             triangles[g] = group_of(
@@ -188,7 +189,7 @@ TriangleTree::TriangleTree(const GroupedPieces& grouped) {
         level = groups_of(level);
         total += level;
     }
-    bounds.resize(total);
+    bounds = huge_vector<BoundsGroup>(total);
     std::size_t count = groups_of(triangles.size());
     add_level(bounds, 0, triangles.data(), 0, triangles.size());
     leaves = static_cast<std::uint32_t>(count);

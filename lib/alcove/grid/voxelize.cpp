@@ -3,6 +3,7 @@
 #include "alcove/errors.h"
 #include "alcove/grid/level_set.h"
 #include "alcove/grid/solidity.h"
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
 
 /// Index space: voxels of the finest level.
 std::vector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Vec3d& origin, double voxel) {
-    std::vector<Vec3d> positions(mesh.positions.size());
+    std::vector<Vec3d> positions = huge_vector<Vec3d>(mesh.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
             positions[v] = ((mesh.positions[v] - frame.center) / frame.diagonal - origin) / voxel;

@@ -1,5 +1,6 @@
 #include "alcove/mesh/diagnose.h"
 
+#include "alcove/huge_pages.h"
 #include "alcove/mesh/edge_table.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/weld.h"
@@ -24,8 +25,10 @@ struct Surface {
 };
 
 std::size_t forward_uses(std::span<const EdgeUse> uses) {
-    return static_cast<std::size_t>(
-        std::count_if(uses.begin(), uses.end(), [](const EdgeUse& use) { return use.forward; }));
+    std::size_t count = 0;
+    for (const EdgeUse& use : uses)
+        count += use.forward;
+    return count;
 }
 
 /// Cones from the centre of the mesh over its faces, each face spanned by its edges and the mean of its
@@ -35,14 +38,15 @@ struct Volume {
     double bound = 0.0; // what the terms would give if nothing in them cancelled
 
     void add(const Mesh& mesh, const Frame& frame, std::span<const std::uint32_t> face) {
-        const auto at = [&](std::uint32_t v) { return (mesh.positions[v] - frame.center) / frame.diagonal; };
+        const double scale = 1.0 / frame.diagonal;
+        const auto at = [&](std::uint32_t v) { return scale * (mesh.positions[v] - frame.center); };
         const Vec3d first = at(face[0]);
         Vec3d side = at(face[1]) - first, total = side, normal(0.0);
         double areas = 0.0;
         for (std::size_t i = 2; i < face.size(); ++i) {
             const Vec3d next = at(face[i]) - first;
             normal += glm::cross(side, next);
-            areas += glm::length(side) * glm::length(next);
+            areas += std::sqrt(glm::dot(side, side) * glm::dot(next, next));
             total += next;
             side = next;
         }
@@ -58,7 +62,7 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
     const SoundFaces& faces = surface.faces;
     Closedness result;
     DisjointSets components(faces.count());
-    std::vector<char> open(faces.count(), 0);
+    std::vector<char> open = huge_vector<char>(faces.count());
     surface.edges.for_each_edge([&](std::span<const EdgeUse> uses) {
         const std::size_t forward = forward_uses(uses);
         const bool unbalanced = 2 * forward != uses.size();
@@ -69,29 +73,37 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
         result.flipped_edges += uses.size() == 2 && unbalanced;
         result.odd_edges += uses.size() % 2;
         result.unbalanced_edges += unbalanced;
-        open[face] = open[face] || unbalanced;
+        if (unbalanced)
+            open[face] = 1;
         for (const EdgeUse& use : uses.subspan(1))
             components.join(face, faces.face_of[use.corner]);
     });
 
     const Frame frame = frame_of(mesh.box());
-    std::vector<Volume> volumes(faces.count());
+    struct Component {
+        Volume volume;
+        bool open = false;
+    };
+    std::vector<Component> parts;
+    std::vector<std::uint32_t> part_of = huge_vector<std::uint32_t>(faces.count());
     for (std::uint32_t f = 0; f < faces.count(); ++f) {
-        const std::uint32_t component = components.find(f);
-        open[component] = open[component] || open[f];
-        volumes[component].add(mesh, frame, faces.face(f));
+        const std::uint32_t first = components.find(f); // the smallest, so already numbered
+        if (first == f) {
+            part_of[f] = static_cast<std::uint32_t>(parts.size());
+            parts.emplace_back();
+        }
+        Component& part = parts[part_of[first]];
+        part.open = part.open || open[f];
+        part.volume.add(mesh, frame, faces.face(f));
     }
     double volume = 0.0;
-    for (std::uint32_t f = 0; f < faces.count(); ++f) {
-        if (components.find(f) != f)
-            continue;
-        ++result.components;
-        if (!open[f]) {
+    result.components = parts.size();
+    for (const Component& part : parts)
+        if (!part.open) {
             ++result.closed_components;
-            result.inverted_components += volumes[f].negative();
-            volume += volumes[f].sum;
+            result.inverted_components += part.volume.negative();
+            volume += part.volume.sum;
         }
-    }
     result.signed_volume = volume * frame.diagonal * frame.diagonal * frame.diagonal;
     return result;
 }

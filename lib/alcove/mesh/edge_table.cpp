@@ -1,5 +1,6 @@
 #include "alcove/mesh/edge_table.h"
 
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -9,9 +10,10 @@ namespace alcove {
 
 SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined) {
     SoundFaces sound;
-    sound.begin.reserve(mesh.face_begin.size());
-    sound.corners.reserve(mesh.corners.size());
-    sound.face_of.reserve(mesh.corners.size());
+    reserve_huge(sound.begin, mesh.face_begin.size());
+    reserve_huge(sound.corners, mesh.corners.size());
+    reserve_huge(sound.face_of, mesh.corners.size());
+    reserve_huge(sound.source, mesh.face_count());
     const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto face = mesh.face(f);
@@ -37,7 +39,8 @@ SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined) 
 }
 
 EdgeTable::EdgeTable(const SoundFaces& faces, std::size_t vertex_count)
-    : begin_(vertex_count + 1, 0), uses_(faces.corners.size()) {
+    : begin_(huge_vector<std::uint32_t>(vertex_count + 1)),
+      uses_(huge_vector<EdgeUse>(faces.corners.size())) {
     const auto for_each_side = [&](auto&& visit) {
         for (std::size_t f = 0; f < faces.count(); ++f) {
             std::uint32_t from = faces.begin[f + 1] - 1;
@@ -49,7 +52,7 @@ EdgeTable::EdgeTable(const SoundFaces& faces, std::size_t vertex_count)
     // Counted up to the end of each vertex and filled backwards, the offsets end at its begin.
     std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
     for_each_side([&](std::uint32_t corner, std::uint32_t a, std::uint32_t b) {
-        uses_[--begin_[std::min(a, b)]] = {std::max(a, b), corner, a < b};
+        uses_[--begin_[std::min(a, b)]] = {std::max(a, b), corner & (UINT32_MAX >> 1), a < b};
     });
 
     parallel_for(vertex_count, 1 << 14, [&](std::size_t begin, std::size_t end) {
@@ -62,20 +65,8 @@ EdgeTable::EdgeTable(const SoundFaces& faces, std::size_t vertex_count)
     });
 }
 
-DisjointSets::DisjointSets(std::size_t count) : parent_(count) {
+DisjointSets::DisjointSets(std::size_t count) : parent_(huge_vector<std::uint32_t>(count)) {
     std::iota(parent_.begin(), parent_.end(), 0u);
-}
-
-std::uint32_t DisjointSets::find(std::uint32_t i) {
-    while (parent_[i] != i)
-        i = parent_[i] = parent_[parent_[i]];
-    return i;
-}
-
-void DisjointSets::join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
 }
 
 }

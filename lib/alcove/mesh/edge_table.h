@@ -3,6 +3,8 @@
 
 #include "alcove/mesh/mesh.h"
 
+#include <algorithm>
+
 namespace alcove {
 
 /// The faces that have a surface, as loops of joined vertices.
@@ -28,12 +30,12 @@ SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined);
 
 /// One side of a face, from `corner` to the next.
 struct EdgeUse {
-    std::uint32_t high;   ///< the larger of the edge's vertices
-    std::uint32_t corner; ///< where the side starts
-    bool forward;         ///< from the smaller vertex to the larger
+    std::uint32_t high;        ///< the larger of the edge's vertices
+    std::uint32_t corner : 31; ///< where the side starts
+    std::uint32_t forward : 1; ///< from the smaller vertex to the larger
 };
 
-/// All sides of all faces, those of an edge together, in an order that only the faces decide. 12 bytes a
+/// All sides of all faces, those of an edge together, in an order that only the faces decide. 8 bytes a
 /// side.
 class EdgeTable {
   public:
@@ -51,7 +53,7 @@ class EdgeTable {
     }
 
   private:
-    std::vector<std::size_t> begin_; // by the smaller vertex
+    std::vector<std::uint32_t> begin_; // by the smaller vertex
     std::vector<EdgeUse> uses_;
 };
 
@@ -59,8 +61,16 @@ class EdgeTable {
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count);
-    std::uint32_t find(std::uint32_t i);
-    void join(std::uint32_t a, std::uint32_t b);
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
 
   private:
     std::vector<std::uint32_t> parent_;

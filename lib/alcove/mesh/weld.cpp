@@ -1,5 +1,6 @@
 #include "alcove/mesh/weld.h"
 
+#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <bit>
@@ -29,15 +30,15 @@ struct Slot {
 
 std::vector<std::uint32_t> weld(const std::vector<Vec3d>& positions) {
     const std::size_t count = positions.size();
-    std::vector<std::uint64_t> hashes(count);
+    std::vector<std::uint64_t> hashes = huge_vector<std::uint64_t>(count);
     parallel_for(count, 1 << 15, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
             hashes[v] = hash(positions[v]);
     });
 
     const std::size_t mask = std::bit_ceil(2 * count + 1) - 1;
-    std::vector<Slot> table(mask + 1);
-    std::vector<std::uint32_t> first(count);
+    std::vector<Slot> table = huge_vector<Slot>(mask + 1);
+    std::vector<std::uint32_t> first = huge_vector<std::uint32_t>(count);
     for (std::uint32_t v = 0; v < count; ++v) {
         const Vec3d& p = positions[v];
         first[v] = v;

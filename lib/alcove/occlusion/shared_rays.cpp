@@ -1,7 +1,8 @@
 #include "alcove/occlusion/shared_rays.h"
 
-#include "alcove/occlusion/linear_model.h"
+#include "alcove/huge_pages.h"
 #include "alcove/occlusion/methods/calibrated.h"
+#include "alcove/occlusion/quadratic_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,7 @@ SharedRays::SharedRays(std::span<const Surfel> surfels, std::span<const std::uin
       spacings_(20.0f * std::pow(static_cast<float>(guided.rays), -0.6f)),
       noise_(std::pow(static_cast<float>(guided.rays), -1.4f)),
       noise_of_bent_(0.5f * std::pow(static_cast<float>(guided.rays), -1.8f)), place_(order.size()) {
+    reserve_huge(surfels_, order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Surfel& surfel = surfels[order[i]];
         if (surfels_.empty() || surfel.position != surfels_.back().position ||
@@ -42,10 +44,14 @@ SharedRays::SharedRays(std::span<const Surfel> surfels, std::span<const std::uin
             surfels_.push_back(surfel);
         place_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
     }
-    const std::size_t padded = std::max(surfels_.size(), Curve::window);
-    for (std::size_t column = 0; column < (with_bent ? columns : bent); ++column)
-        columns_[column].assign(padded, 0.0f);
-    features_.assign(features, std::vector<float>(padded, 0.0f));
+    padded_ = std::max(surfels_.size(), Curve::window);
+    const std::size_t used = with_bent ? columns : bent;
+    reserve_huge(values_, (used + features) * padded_);
+    values_.resize((used + features) * padded_);
+    for (std::size_t column = 0; column < used; ++column)
+        columns_[column] = values_.data() + column * padded_;
+    for (std::size_t feature = 0; feature < features; ++feature)
+        features_[feature] = values_.data() + (used + feature) * padded_;
     for (std::size_t i = 0; i < surfels_.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
             columns_[position + axis][i] = surfels_[i].position[static_cast<int>(axis)];
@@ -65,11 +71,8 @@ void SharedRays::probe(const AnyField& field, std::size_t begin, std::size_t end
         calibrated_inputs<TenProbes>(field, batch, radius, inputs);
         const SurfelBatch::Values calibrated = calibrated_table::ten_probes(inputs);
         for (std::size_t k = 0; k < Curve::probes; ++k)
-            std::copy_n(inputs[k].begin(), batch.count, features_[k].begin() + static_cast<long>(at));
-        for (std::size_t i = 0; i < batch.count; ++i) {
-            features_[Curve::probes][at + i] = calibrated[i];
-            features_[Curve::probes + 1][at + i] = calibrated[i] * calibrated[i];
-        }
+            std::copy_n(inputs[k].begin(), batch.count, features_[k] + at);
+        std::copy_n(calibrated.begin(), batch.count, features_[Curve::probes] + at);
     }
 }
 
@@ -109,8 +112,8 @@ void SharedRays::shoot(const RaySurface& surface, std::size_t begin, std::size_t
 }
 
 void SharedRays::fit_model() {
-    const LinearModel model = fit_linear_model(features_, columns_[ao], size());
-    model.predict(features_, 0, size(), columns_[predicted].data());
+    const QuadraticModel model = fit_quadratic_model(features_, {columns_[ao], size()}, size());
+    model.predict(features_, 0, size(), columns_[predicted]);
     double sum = 0.0, sum2 = 0.0, unexplained = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {
         const float open = std::clamp(columns_[predicted][i], 0.0f, 1.0f), left = columns_[ao][i] - open;
@@ -127,13 +130,11 @@ void SharedRays::fit_model() {
 }
 
 SharedRays::Answer SharedRays::share(std::size_t i) const {
-    const std::size_t first =
-        std::min(i - std::min(i, Curve::window / 2), columns_[ao].size() - Curve::window);
+    const std::size_t first = std::min(i - std::min(i, Curve::window / 2), padded_ - Curve::window);
     std::array<float, Curve::window> weights;
     weigh(curve(), i, first, reach(i), weights.data());
     const float model = columns_[predicted][i];
-    const Moments m =
-        moments(weights.data(), columns_[predicted].data() + first, model, columns_[residual].data() + first);
+    const Moments m = moments(weights.data(), columns_[predicted] + first, model, columns_[residual] + first);
     const float noise = noise_ * variance_of(model);
     const float mean = m.v / (m.w + noise / model_variance_);
     const float variance = m.vv / m.w - 2.0f * mean * m.v / m.w + mean * mean;
@@ -150,9 +151,9 @@ Vec3 SharedRays::share_bent(std::size_t i, std::size_t first, const float* weigh
     float left = 0.0f;
     Vec3 fitted(0.0f), own(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
-        const std::vector<float>& values = columns_[bent + static_cast<std::size_t>(axis)];
-        const Moments m = moments(weights, columns_[predicted].data() + first, columns_[predicted][i],
-                                  values.data() + first);
+        const float* values = columns_[bent + static_cast<std::size_t>(axis)];
+        const Moments m =
+            moments(weights, columns_[predicted] + first, columns_[predicted][i], values + first);
         const float g = m.g / m.w, v = m.v / m.w;
         // The predictions of a flat neighbourhood say nothing: what they vary by rounding is no slope.
         const float spread = m.gg / m.w - g * g + 1e-4f, covariance = m.vg / m.w - g * v;
@@ -166,12 +167,10 @@ Vec3 SharedRays::share_bent(std::size_t i, std::size_t first, const float* weigh
 
 Curve SharedRays::curve() const {
     Curve curve{};
-    curve.x = columns_[position].data(), curve.y = columns_[position + 1].data(),
-    curve.z = columns_[position + 2].data();
-    curve.nx = columns_[normal].data(), curve.ny = columns_[normal + 1].data(),
-    curve.nz = columns_[normal + 2].data();
+    curve.x = columns_[position], curve.y = columns_[position + 1], curve.z = columns_[position + 2];
+    curve.nx = columns_[normal], curve.ny = columns_[normal + 1], curve.nz = columns_[normal + 2];
     for (std::size_t k = 0; k < Curve::probes; ++k)
-        curve.probe[k] = features_[k].data();
+        curve.probe[k] = features_[k];
     return curve;
 }
 

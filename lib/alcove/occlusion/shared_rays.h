@@ -15,6 +15,8 @@ namespace alcove {
 /// different surfels at a time.
 class SharedRays {
   public:
+    SharedRays(const SharedRays&) = delete;
+    SharedRays& operator=(const SharedRays&) = delete;
     SharedRays(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const Guided& guided,
                bool with_bent);
 
@@ -42,8 +44,8 @@ class SharedRays {
         bent,      ///< by how much it deviates from that of open surroundings; empty without
         columns = bent + 3
     };
-    /// The probes, what Calibrated makes of them, and its square.
-    static constexpr std::size_t features = Curve::probes + 2;
+    /// The probes, and what Calibrated makes of them.
+    static constexpr std::size_t features = Curve::probes + 1;
 
     Curve curve() const;
     float reach(std::size_t i) const;
@@ -60,8 +62,10 @@ class SharedRays {
     const float noise_, noise_of_bent_;
     std::vector<Surfel> surfels_;
     std::vector<std::uint32_t> place_; ///< of each rank, in surfels_
-    std::array<std::vector<float>, columns> columns_;
-    std::vector<std::vector<float>> features_;
+    std::size_t padded_;               ///< values of a column: at least a window
+    std::vector<float> values_;        ///< all columns and features, in one piece
+    std::array<float*, columns> columns_{};
+    std::array<float*, features> features_{};
     float model_variance_ = 0.0f; ///< of ao − predicted, less the noise of the rays
 };
 
