@@ -6,11 +6,15 @@ set(alcove_internal_headers
     atomic_file.h
     grid/band.h
     grid/level_set.h
+    grid/lanes-inl.h
     grid/nearest.h
+    grid/octants-inl.h
     grid/pieces.h
     grid/pseudonormals.h
     grid/radix_sort.h
+    grid/sieve.h
     grid/solidity.h
+    grid/triangle_distance-inl.h
     grid/triangle_tree.h
     grid/vdb.h
     grid/winding.h

@@ -15,11 +15,11 @@ void descend(const TriangleTree& tree, const BandBlock& from, Block block, int s
         out.push_back(from);
         return;
     }
-    std::array<Candidates, 8> parts;
-    split(tree, from.nearest, block, reach, parts);
+    std::array<Nodes, 8> parts;
+    split(tree, from.nodes, block, reach, parts);
     block.size /= 2;
     for (int i = 0; i < 8; ++i)
-        if (auto& part = parts[static_cast<std::size_t>(i)]; !part.nodes.empty()) {
+        if (auto& part = parts[static_cast<std::size_t>(i)]; !part.empty()) {
             block.low = from.low + block.size * Index3(i >> 2, i >> 1 & 1, i & 1);
             descend(tree, {block.low, std::move(part)}, block, smallest, reach, out);
         }
@@ -27,11 +27,13 @@ void descend(const TriangleTree& tree, const BandBlock& from, Block block, int s
 
 /// Of a block around all of the band.
 int size_around(const TriangleTree& tree, int stride, float reach) {
-    const BoundsGroup& root = tree.bounds[tree.root()];
     float extent = 0.0f;
-    for (int i = 0; i < BoundsGroup::size && root.radius[i] >= 0.0f; ++i)
-        for (const auto& centre : root.centre)
-            extent = std::max(extent, centre[i] + root.radius[i] + root.thickness[i]);
+    for (std::uint32_t node = tree.top(); node < tree.nodes.size() && tree.nodes[node].radius >= 0.0f;
+         ++node) {
+        const Bounds& b = tree.nodes[node];
+        extent = std::max({extent, b.centre.x + b.radius + b.thickness, b.centre.y + b.radius + b.thickness,
+                           b.centre.z + b.radius + b.thickness});
+    }
     int size = brick_size;
     while (static_cast<float>(size) * static_cast<float>(stride) < extent + reach + 1.0f)
         size *= 2;
@@ -44,10 +46,9 @@ std::vector<BandBlock> Band::blocks(int stride) const {
     const float reach = width_.outer * static_cast<float>(stride);
     const int size = size_around(*tree_, stride, reach), task = std::min(size, 8 * brick_size);
     std::vector<BandBlock> tasks;
-    Candidates whole;
-    for (std::uint32_t i = 0; i < BoundsGroup::size; ++i)
-        whole.nodes.push_back(BoundsGroup::size * tree_->root() + i);
-    whole.nearest = whole.nodes.front();
+    Nodes whole;
+    for (std::uint32_t node = tree_->top(); node < tree_->nodes.size(); ++node)
+        whole.push_back(node);
     descend(*tree_, {Index3(0), std::move(whole)}, {Index3(0), size, stride}, task, reach, tasks);
     std::vector<std::vector<BandBlock>> found(tasks.size());
     parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -67,7 +68,7 @@ BandBrick Band::brick(const BandBlock& block, int stride) const {
     if (columns_)
         inside = columns_->inside(at);
     NearestTriangles nearest;
-    nearest_triangles(*tree_, block.nearest, at, {inside.data(), width_.outer * units, width_.inner * units},
+    nearest_triangles(*tree_, block.nodes, at, {inside.data(), width_.outer * units, width_.inner * units},
                       nearest);
 
     BandBrick brick;

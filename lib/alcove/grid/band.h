@@ -25,7 +25,7 @@ struct BandWidth {
 /// A brick that the band may touch and what may be nearest to its voxels.
 struct BandBlock {
     Index3 low; ///< a multiple of brick_size
-    Candidates nearest;
+    Nodes nodes;
 };
 
 /// Signed distances in voxels, z fastest; ±the width where a voxel is not of the band.

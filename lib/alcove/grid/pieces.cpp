@@ -1,6 +1,5 @@
 #include "alcove/grid/pieces.h"
 
-#include "alcove/grid/radix_sort.h"
 #include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
@@ -73,22 +72,24 @@ void group(std::span<const Keyed> order, std::uint32_t begin, std::uint32_t end,
     group(order, middle, end, out);
 }
 
+Piece piece_of(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
+    const Vec3d origin = glm::floor(a);
+    return {Index3(origin),
+            {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)},
+            static_cast<std::uint32_t>(triangle)};
 }
 
-GroupedPieces grouped_pieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
+}
+
+GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles)
+    : positions_(positions), triangles_(triangles) {
     double extent = 1.0;
     for (const Vec3d& p : positions)
         if (const double most = std::max({p.x, p.y, p.z}); std::isfinite(most))
             extent = std::max(extent, most);
     const double scale = std::min(cells_per_voxel, most_cells / extent);
-    const auto piece = [](const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
-        const Vec3d origin = glm::floor(a);
-        return Piece{Index3(origin),
-                     {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)},
-                     static_cast<std::uint32_t>(triangle)};
-    };
 
-    // Most triangles are one piece, which is made when its place is known; those of the others are kept.
+    // Most triangles are one piece, which is made when it is asked for; those of the others are kept.
     struct Cut {
         std::vector<Keyed> whole; // by triangle
         std::vector<Keyed> parts; // by index below
@@ -112,47 +113,37 @@ GroupedPieces grouped_pieces(std::span<const Vec3d> positions, std::span<const T
             }
             cut(a, b, c, [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
                 block.parts.push_back({key(p, q, r), static_cast<std::uint32_t>(block.pieces.size())});
-                block.pieces.push_back(piece(p, q, r, t));
+                block.pieces.push_back(piece_of(p, q, r, t));
             });
         }
     });
     std::size_t count = 0;
     for (const Cut& block : blocks)
         count += block.whole.size() + block.parts.size();
-    std::vector<Keyed> order;
-    std::vector<Piece> parts;
-    reserve_huge(order, count);
+    reserve_huge(order_, count);
     for (const Cut& block : blocks) {
-        order.insert(order.end(), block.whole.begin(), block.whole.end());
+        order_.insert(order_.end(), block.whole.begin(), block.whole.end());
         for (const Keyed& part : block.parts)
-            order.push_back(
-                {part.key, static_cast<std::uint32_t>(triangles.size() + parts.size() + part.value)});
-        parts.insert(parts.end(), block.pieces.begin(), block.pieces.end());
+            order_.push_back(
+                {part.key, static_cast<std::uint32_t>(triangles.size() + parts_.size() + part.value)});
+        parts_.insert(parts_.end(), block.pieces.begin(), block.pieces.end());
     }
-    blocks.clear();
-    radix_sort(order, 3 * (std::ilogb(scale * extent) + 1));
+    radix_sort(order_, 3 * (std::ilogb(scale * extent) + 1));
+    reserve_huge(begin_, count + 1);
+    begin_.push_back(0);
+    if (count > 0)
+        group(order_, 0, static_cast<std::uint32_t>(count), begin_);
+}
 
-    GroupedPieces sorted;
-    sorted.pieces = huge_vector<Piece>(count);
-    reserve_huge(sorted.begin, count + 1);
-    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t value = order[i].value;
-            if (value >= triangles.size()) {
-                sorted.pieces[i] = parts[value - triangles.size()];
-                continue;
-            }
-            const Triangle& t = triangles[value];
-            cut(positions[t[0]], positions[t[1]], positions[t[2]],
-                [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-                    sorted.pieces[i] = piece(a, b, c, value);
-                });
-        }
-    });
-    sorted.begin.push_back(0);
-    if (!order.empty())
-        group(order, 0, static_cast<std::uint32_t>(order.size()), sorted.begin);
-    return sorted;
+Piece GroupedPieces::piece(std::size_t i) const {
+    const std::uint32_t value = order_[i].value;
+    if (value >= triangles_.size())
+        return parts_[value - triangles_.size()];
+    const Triangle& t = triangles_[value];
+    Piece whole;
+    cut(positions_[t[0]], positions_[t[1]], positions_[t[2]],
+        [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) { whole = piece_of(a, b, c, value); });
+    return whole;
 }
 
 }

@@ -2,6 +2,7 @@
 /// Internal to grid/.
 #pragma once
 
+#include "alcove/grid/radix_sort.h"
 #include "alcove/types.h"
 
 #include <glm/gtc/type_precision.hpp>
@@ -25,18 +26,27 @@ struct Piece {
 /// voxel has to look at does not grow with the size of triangles.
 inline constexpr double longest_piece = 4.0;
 
-/// Pieces in groups of neighbours.
-struct GroupedPieces {
+/// All pieces of a surface along a Morton curve (G. M. Morton, 1966), in groups by the cells of the octree that
+/// the curve runs through, so that no group spans a jump of the curve. Triangles without an area are left out:
+/// their edges belong to their neighbours. The result does not depend on the number of threads. Const use is
+/// thread-safe. Cost: linear, about 80 ns a piece, 20 more to ask for it.
+class GroupedPieces {
+  public:
     static constexpr std::size_t largest_group = 8;
 
-    std::vector<Piece> pieces;
-    std::vector<std::uint32_t> begin; ///< groups + 1 offsets into `pieces`
-};
+    /// `positions` are in index space, none below 0; they and the triangles must outlive this.
+    GroupedPieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
-/// All pieces along a Morton curve (G. M. Morton, 1966), grouped by the cells of the octree that the curve
-/// runs through, so that no group spans a jump of the curve. `positions` are in index space, none below 0;
-/// triangles without an area are left out: their edges belong to their neighbours. The result does not depend
-/// on the number of threads. Cost: linear, about 150 ns a piece.
-GroupedPieces grouped_pieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
+    std::size_t count() const { return begin_.size() - 1; } ///< of groups
+    std::size_t begin(std::size_t group) const { return begin_[group]; }
+    Piece piece(std::size_t i) const; ///< from begin() of its group to that of the next
+
+  private:
+    std::span<const Vec3d> positions_;
+    std::span<const Triangle> triangles_;
+    std::vector<Keyed> order_;         // by triangle, or index in parts_ beyond the triangles
+    std::vector<Piece> parts_;         // of triangles that were cut
+    std::vector<std::uint32_t> begin_; // groups + 1 offsets into order_
+};
 
 }

@@ -10,24 +10,10 @@ namespace alcove {
 namespace {
 
 constexpr int eight = 8;
-static_assert(TriangleGroup::size == eight && BoundsGroup::size == eight);
+static_assert(TriangleGroup::size == eight && TriangleTree::children == eight);
 // Floats at the far end of the grid are this coarse, relatively; bounds are widened by it.
 constexpr float rounding = 0x1p-21f;
 constexpr float nowhere = 1e18f; // its square is finite
-
-struct Cylinder {
-    Vec3 centre, axis, point;
-    float thickness, radius;
-};
-
-Vec3 lane(const float (&v)[3][eight], int i) {
-    return {v[0][i], v[1][i], v[2][i]};
-}
-
-void set_lane(float (&v)[3][eight], int i, const Vec3& p) {
-    for (int axis = 0; axis < 3; ++axis)
-        v[axis][i] = p[axis];
-}
 
 float length2(const Vec3& v) {
     return glm::dot(v, v);
@@ -38,22 +24,76 @@ Vec3 unit_or_z(const Vec3& v) {
     return length > 0.0f ? v / length : Vec3(0, 0, 1);
 }
 
-TriangleGroup group_of(std::span<const Piece> pieces) {
-    TriangleGroup group;
-    group.origin = pieces[0].origin;
-    group.count = static_cast<std::uint32_t>(pieces.size());
-    for (int i = 0; i < eight; ++i) {
-        const Piece& p =
-            pieces[static_cast<std::size_t>(i) < pieces.size() ? static_cast<std::size_t>(i) : 0];
-        set_lane(group.a, i, Vec3(p.origin - group.origin) + p.corners[0]);
-        set_lane(group.ab, i, p.corners[1] - p.corners[0]);
-        set_lane(group.ac, i, p.corners[2] - p.corners[0]);
-        group.triangle[i] = p.triangle;
-    }
-    return group;
+/// The corners of eight triangles from the origin of their group; loops over the eight are the inner ones, which
+/// compilers turn into vectors.
+struct Corners {
+    float a[3][eight], ab[3][eight], ac[3][eight];
+};
+
+using Eight = float[eight];
+
+void dot(const float (&p)[3][eight], const float (&q)[3][eight], Eight& out) {
+    for (int i = 0; i < eight; ++i)
+        out[i] = p[0][i] * q[0][i] + p[1][i] * q[1][i] + p[2][i] * q[2][i];
 }
 
-Cylinder widened(Cylinder c) {
+float inverse(float v) {
+    return 1.0f / std::max(v, 1e-30f); // rather than of the length of a side that has none
+}
+
+void set_frames(const Corners& corners, TriangleGroup& g) {
+    const auto& [a, ab, ac] = corners;
+    Eight ab2, ac2, along, height2;
+    dot(ab, ab, ab2);
+    dot(ac, ac, ac2);
+    for (int i = 0; i < eight; ++i) {
+        g.b[i] = std::sqrt(ab2[i]);
+        const float scale = inverse(g.b[i]);
+        g.u[0][i] = ab2[i] > 0.0f ? scale * ab[0][i] : 1.0f;
+        g.u[1][i] = scale * ab[1][i];
+        g.u[2][i] = scale * ab[2][i];
+    }
+    // The height of c, made perpendicular once more: the first time leaves rounding of the size of the sides.
+    float height[3][eight];
+    std::copy_n(&ac[0][0], 3 * eight, &height[0][0]);
+    for (int pass = 0; pass < 2; ++pass) {
+        dot(height, g.u, along);
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < eight; ++i)
+                height[axis][i] -= along[i] * g.u[axis][i];
+    }
+    dot(height, height, height2);
+    for (int i = 0; i < eight; ++i) {
+        const bool flat = height2[i] <= 1e-12f * ac2[i]; // then any direction across u will do
+        const float x = g.u[0][i], y = g.u[1][i], z = g.u[2][i];
+        const bool steep = std::fabs(z) > 0.6f;
+        const float side = inverse(std::sqrt(x * x + (steep ? z * z : y * y)));
+        const float scale = inverse(std::sqrt(height2[i]));
+        g.v[0][i] = flat ? side * (steep ? -z : -y) : scale * height[0][i];
+        g.v[1][i] = flat ? (steep ? 0.0f : side * x) : scale * height[1][i];
+        g.v[2][i] = flat ? (steep ? side * x : 0.0f) : scale * height[2][i];
+        height2[i] = flat ? 0.0f : 1.0f;
+    }
+    dot(ac, g.u, g.c[0]);
+    dot(ac, g.v, g.c[1]);
+    for (int i = 0; i < eight; ++i) {
+        g.n[0][i] = g.u[1][i] * g.v[2][i] - g.u[2][i] * g.v[1][i];
+        g.n[1][i] = g.u[2][i] * g.v[0][i] - g.u[0][i] * g.v[2][i];
+        g.n[2][i] = g.u[0][i] * g.v[1][i] - g.u[1][i] * g.v[0][i];
+        g.c[1][i] *= height2[i];
+        const float c0 = g.c[0][i], c1 = g.c[1][i], bc0 = c0 - g.b[i];
+        const float per_ac = inverse(c0 * c0 + c1 * c1), per_bc = inverse(bc0 * bc0 + c1 * c1);
+        g.per_ac[0][i] = c0 * per_ac;
+        g.per_ac[1][i] = c1 * per_ac;
+        g.per_bc[0][i] = bc0 * per_bc;
+        g.per_bc[1][i] = c1 * per_bc;
+    }
+    dot(a, g.u, g.a[0]);
+    dot(a, g.v, g.a[1]);
+    dot(a, g.n, g.a[2]);
+}
+
+Bounds widened(Bounds c) {
     const float most = std::max({c.centre.x, c.centre.y, c.centre.z, 1.0f});
     c.thickness += rounding * most;
     c.radius += rounding * most;
@@ -68,10 +108,9 @@ float most_of(const float (&v)[eight]) {
     return *std::max_element(v, v + eight);
 }
 
-/// Loops over the eight are the inner ones, which compilers turn into vectors.
-Cylinder bounds_of(const TriangleGroup& g) {
-    const float(*const a)[eight] = g.a;
-    Cylinder result;
+Bounds bounds_of(const Corners& g, const Index3& origin) {
+    const auto& a = g.a;
+    Bounds result{};
     float corners[3][3][eight]; // corner, axis
     for (int axis = 0; axis < 3; ++axis) {
         float least[eight], most[eight];
@@ -111,93 +150,104 @@ Cylinder bounds_of(const TriangleGroup& g) {
             across2[i] = std::max(across2[i], px * px + py * py + pz * pz);
         }
     const float bottom = least_of(low), top = most_of(high);
-    const auto third = [&](int i) { return lane(g.a, i) + (lane(g.ab, i) + lane(g.ac, i)) / 3.0f; };
+    const auto third = [&](int i) {
+        return Vec3(a[0][i], a[1][i], a[2][i]) +
+               (Vec3(g.ab[0][i], g.ab[1][i], g.ab[2][i]) + Vec3(g.ac[0][i], g.ac[1][i], g.ac[2][i])) / 3.0f;
+    };
     result.point = third(0);
     for (int i = 1; i < eight; ++i)
         if (const Vec3 p = third(i); length2(p - m) < length2(result.point - m))
             result.point = p;
-    result.point += Vec3(g.origin);
-    result.centre += 0.5f * (bottom + top) * n + Vec3(g.origin);
+    result.point += Vec3(origin);
+    result.centre += 0.5f * (bottom + top) * n + Vec3(origin);
     result.thickness = 0.5f * (top - bottom);
     result.radius = std::sqrt(most_of(across2));
     return widened(result);
 }
 
-Cylinder bounds_of(const BoundsGroup& g) {
-    Vec3 least(nowhere), most(-nowhere), normal(0.0f);
-    for (int i = 0; i < eight && g.radius[i] >= 0.0f; ++i) {
-        const Vec3 centre = lane(g.centre, i);
-        least = glm::min(least, centre - g.radius[i]);
-        most = glm::max(most, centre + g.radius[i]);
-        normal += g.radius[i] * g.radius[i] * lane(g.axis, i);
+/// A group of pieces and its bounds.
+Bounds make_group(const GroupedPieces& pieces, std::size_t g, TriangleGroup& group) {
+    const std::size_t begin = pieces.begin(g), count = pieces.begin(g + 1) - begin;
+    const Piece first = pieces.piece(begin);
+    group.origin = first.origin;
+    group.count = static_cast<std::uint32_t>(count);
+    Corners corners;
+    for (std::size_t i = 0; i < eight; ++i) {
+        const Piece p = i > 0 && i < count ? pieces.piece(begin + i) : first;
+        const Vec3 a = Vec3(p.origin - group.origin) + p.corners[0];
+        for (int axis = 0; axis < 3; ++axis) {
+            corners.a[axis][i] = a[axis];
+            corners.ab[axis][i] = p.corners[1][axis] - p.corners[0][axis];
+            corners.ac[axis][i] = p.corners[2][axis] - p.corners[0][axis];
+        }
+        group.triangle[i] = p.triangle;
     }
-    Cylinder result{0.5f * (least + most), unit_or_z(normal), lane(g.point, 0), 0.0f, 0.0f};
+    set_frames(corners, group);
+    Bounds bounds = bounds_of(corners, group.origin);
+    bounds.child = static_cast<std::uint32_t>(g);
+    return bounds;
+}
+
+/// Of eight nodes.
+Bounds bounds_of(std::span<const Bounds> children) {
+    Vec3 least(nowhere), most(-nowhere), normal(0.0f);
+    for (const Bounds& b : children) {
+        least = glm::min(least, b.centre - b.radius);
+        most = glm::max(most, b.centre + b.radius);
+        normal += b.radius * b.radius * b.axis;
+    }
+    Bounds result{0.5f * (least + most), unit_or_z(normal), children[0].point, 0.0f, 0.0f, 0};
     float low = nowhere, high = -nowhere;
-    for (int i = 0; i < eight && g.radius[i] >= 0.0f; ++i) {
-        const Vec3 way = lane(g.centre, i) - result.centre;
+    for (const Bounds& b : children) {
+        const Vec3 way = b.centre - result.centre;
         const float height = glm::dot(way, result.axis);
-        const float cosine = std::min(1.0f, std::fabs(glm::dot(lane(g.axis, i), result.axis)));
+        const float cosine = std::min(1.0f, std::fabs(glm::dot(b.axis, result.axis)));
         const float sine = std::sqrt(1.0f - cosine * cosine);
-        const float half = cosine * g.thickness[i] + sine * g.radius[i];
-        if (const Vec3 p = lane(g.point, i);
-            length2(p - result.centre) < length2(result.point - result.centre))
-            result.point = p;
+        const float half = cosine * b.thickness + sine * b.radius;
+        if (length2(b.point - result.centre) < length2(result.point - result.centre))
+            result.point = b.point;
         low = std::min(low, height - half);
         high = std::max(high, height + half);
-        result.radius = std::max(result.radius, glm::length(way - height * result.axis) + g.radius[i] +
-                                                    sine * g.thickness[i]);
+        result.radius =
+            std::max(result.radius, glm::length(way - height * result.axis) + b.radius + sine * b.thickness);
     }
     result.centre += 0.5f * (low + high) * result.axis;
     result.thickness = 0.5f * (high - low);
     return widened(result);
 }
 
-/// A level of bounds over the `count` nodes from `first` on.
-template <class Node>
-void add_level(std::vector<BoundsGroup>& bounds, std::size_t at, const Node* nodes, std::size_t first,
-               std::size_t count) {
-    parallel_for((count + eight - 1) / eight, 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t group = begin; group < end; ++group)
-            for (int i = 0; i < eight; ++i) {
-                const std::size_t child = eight * group + static_cast<std::size_t>(i);
-                BoundsGroup& b = bounds[at + group];
-                Cylinder c{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f};
-                if (child < count)
-                    c = bounds_of(nodes[child]);
-                set_lane(b.centre, i, c.centre);
-                set_lane(b.axis, i, c.axis);
-                set_lane(b.point, i, c.point);
-                b.thickness[i] = c.thickness;
-                b.radius[i] = c.radius;
-                b.child[i] = static_cast<std::uint32_t>(first + child);
-            }
-    });
+std::size_t in_eights(std::size_t count) {
+    return (count + eight - 1) / eight * eight;
 }
 
 }
 
-TriangleTree::TriangleTree(const GroupedPieces& grouped) {
-    const auto groups_of = [](std::size_t count) { return (count + eight - 1) / eight; };
-    triangles = huge_vector<TriangleGroup>(grouped.begin.size() - 1);
+TriangleTree::TriangleTree(const GroupedPieces& pieces) {
+    triangles = huge_vector<TriangleGroup>(pieces.count());
+    std::size_t total = in_eights(triangles.size());
+    for (std::size_t level = total; level > eight; total += level)
+        level = in_eights(level / eight);
+    const Bounds filling{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f, 0};
+    nodes = huge_vector(total, filling);
     parallel_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g)
-            triangles[g] = group_of(
-                std::span(grouped.pieces).subspan(grouped.begin[g], grouped.begin[g + 1] - grouped.begin[g]));
+            nodes[g] = make_group(pieces, g, triangles[g]);
     });
-    std::size_t total = 0;
-    for (std::size_t level = triangles.size(); level > 1 || total == 0;) {
-        level = groups_of(level);
-        total += level;
-    }
-    bounds = huge_vector<BoundsGroup>(total);
-    std::size_t count = groups_of(triangles.size());
-    add_level(bounds, 0, triangles.data(), 0, triangles.size());
-    leaves = static_cast<std::uint32_t>(count);
-    for (std::size_t first = 0; count > 1;) {
-        const std::size_t next = first + count;
-        add_level(bounds, next, bounds.data() + first, first, count);
+    // The nodes of a level stand at its begin, `count` of them.
+    std::size_t first = 0, count = triangles.size();
+    leaves = static_cast<std::uint32_t>(in_eights(count));
+    while (count > eight) {
+        const std::size_t next = first + in_eights(count), parents = in_eights(count) / eight;
+        parallel_for(parents, 256, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t p = begin; p < end; ++p) {
+                const std::size_t child = first + eight * p,
+                                  held = std::min<std::size_t>(eight, count - eight * p);
+                nodes[next + p] = bounds_of(std::span(nodes).subspan(child, held));
+                nodes[next + p].child = static_cast<std::uint32_t>(child);
+            }
+        });
         first = next;
-        count = groups_of(count);
+        count = parents;
     }
 }
 

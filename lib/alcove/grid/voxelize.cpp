@@ -14,19 +14,6 @@
 namespace alcove {
 namespace {
 
-void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
-    if (surface.flipped_edges > 0)
-        warnings.push_back(
-            fmt::format("at {} edges the neighbouring faces turn opposite ways: vertices there are lit from "
-                        "whichever side their normals take, make the faces agree first",
-                        surface.flipped_edges));
-    if (surface.inverted_components > 0)
-        warnings.push_back(
-            fmt::format("{} of {} parts face inward and get the occlusion of their inside: right for the "
-                        "wall of a cavity, else turn their faces over first",
-                        surface.inverted_components, surface.components));
-}
-
 /// Index (0, 0, 0) of all levels: below and left of every band, so that a tree has one root node and not
 /// eight, each of a quarter of a megabyte.
 Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
@@ -53,20 +40,11 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(mesh.box(), stack.frame, plan);
     const std::vector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
-    Closedness shape;
-    std::optional<TriangleTree> tree;
-    std::optional<WindingColumns> columns;
-    parallel_for(2, 1, [&](std::size_t task, std::size_t) {
-        if (task == 0) {
-            shape = closedness(mesh);
-            return;
-        }
-        if (const GroupedPieces pieces = grouped_pieces(positions, triangles); !pieces.pieces.empty())
-            tree.emplace(pieces);
-        columns.emplace(positions, triangles);
-    });
-    if (!tree)
+    const GroupedPieces pieces(positions, triangles);
+    if (pieces.count() == 0)
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
+    const TriangleTree tree(pieces);
+    const WindingColumns columns(positions, triangles);
 
     if (plan.voxel > 0.25f * options.grid.radius)
         stack.warnings.push_back(fmt::format(
@@ -78,13 +56,12 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         if (options.progress)
             options.progress(share);
     };
-    warn_of_orientation(shape, stack.warnings);
-    stack.sign = choose_sign(options.sign, shape, *columns, positions, triangles, stack.warnings);
+    stack.sign = choose_sign(options.sign, mesh, columns, positions, triangles, stack.warnings);
     std::optional<Pseudonormals> normals;
     if (stack.sign == Sign::sheet)
         normals.emplace(positions, triangles);
-    const Band band = normals ? Band(*tree, *normals, plan.outer_band)
-                              : Band(*tree, *columns, {plan.outer_band, plan.inner_band});
+    const Band band = normals ? Band(tree, *normals, plan.outer_band)
+                              : Band(tree, columns, {plan.outer_band, plan.inner_band});
     done(0.3);
     for (int level = 0; level < plan.levels; ++level) {
         const float voxel = std::ldexp(plan.voxel, level);

@@ -1,0 +1,74 @@
+#include "alcove/grid/voxelize.h"
+
+#include "alcove/mesh/triangulate.h"
+#include "mesh/solids.h"
+
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+namespace alcove {
+namespace {
+
+GridStack grid_of(const Mesh& mesh) {
+    VoxelizeOptions options;
+    options.grid.voxel = 1.0f / 64.0f;
+    options.grid.radius = 0.1f;
+    return voxelize(mesh, triangulate(mesh).triangles, options);
+}
+
+void expect_silent_solid(const Mesh& mesh) {
+    const GridStack stack = grid_of(mesh);
+    EXPECT_EQ(stack.sign, Sign::solid);
+    EXPECT_TRUE(stack.warnings.empty()) << fmt::format("{}", fmt::join(stack.warnings, "\n"));
+}
+
+void expect_sheet_and(const Mesh& mesh, const std::string& warning) {
+    const GridStack stack = grid_of(mesh);
+    EXPECT_EQ(stack.sign, Sign::sheet);
+    ASSERT_EQ(stack.warnings.size(), 1u);
+    EXPECT_NE(stack.warnings[0].find(warning), std::string::npos) << stack.warnings[0];
+}
+
+TEST(Solidity, ClosedMeshesAreSolids) {
+    expect_silent_solid(cube());
+    expect_silent_solid(torus(24, 12));
+}
+
+TEST(Solidity, VerticesKeptApartCloseAsWell) {
+    expect_silent_solid(split(cube()));
+}
+
+TEST(Solidity, TheWallOfACavityIsNoMistake) {
+    expect_silent_solid(together(cube({0, 0, 0}, 3.0), inverted(cube({1, 1, 1}, 1.0))));
+}
+
+TEST(Solidity, OpenMeshesAreSheets) {
+    Mesh open = cube();
+    std::vector<Face> faces = faces_of(open);
+    faces.pop_back();
+    const GridStack stack = grid_of(with_faces(open, faces));
+    EXPECT_EQ(stack.sign, Sign::sheet);
+    EXPECT_TRUE(stack.warnings.empty());
+}
+
+TEST(Solidity, ShellsInShellsAreSheets) {
+    EXPECT_EQ(grid_of(together(cube({0, 0, 0}, 3.0), cube({1, 1, 1}, 1.0))).sign, Sign::sheet);
+}
+
+TEST(Solidity, FacesThatTurnTheWrongWayAreTold) {
+    std::vector<Face> faces = faces_of(cube());
+    std::reverse(faces[2].begin(), faces[2].end());
+    expect_sheet_and(with_faces(cube(), faces), "at 4 edges the neighbouring faces turn opposite ways");
+    expect_sheet_and(inverted(cube()), "1 of 1 parts face inward");
+}
+
+/// No column through a voxel meets it, but its edges do not cancel.
+TEST(Solidity, ATinyPartThatIsOpenMakesASheet) {
+    Mesh dust = cube({1.001, 0.501, 0.501}, 0.0001);
+    std::vector<Face> faces = faces_of(dust);
+    faces.pop_back();
+    EXPECT_EQ(grid_of(together(cube(), with_faces(dust, faces))).sign, Sign::sheet);
+}
+
+}
+}
