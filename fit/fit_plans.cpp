@@ -28,14 +28,17 @@ namespace {
 
 constexpr std::array<float, 6> radii{0.02f, 0.05f, 0.1f, 0.2f, 0.5f, std::numeric_limits<float>::infinity()};
 constexpr std::array<float, 2> largest_voxels{1.0f / 64.0f, 1.0f / 256.0f};
-constexpr std::array<std::pair<std::string_view, int>, 11> methods{{{"guided", 1},
+constexpr std::array<std::pair<std::string_view, int>, 14> methods{{{"guided", 1},
                                                                     {"guided", 2},
                                                                     {"guided", 3},
                                                                     {"guided", 4},
                                                                     {"guided", 6},
                                                                     {"guided", 8},
+                                                                    {"guided", 11},
                                                                     {"guided", 16},
+                                                                    {"guided", 22},
                                                                     {"guided", 32},
+                                                                    {"guided", 45},
                                                                     {"guided", 64},
                                                                     {"calibrated", 10},
                                                                     {"calibrated", 24}}};

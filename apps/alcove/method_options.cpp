@@ -31,7 +31,10 @@ void add_method_options(CLI::App& verb, MethodRequest& request, const std::strin
     verb.add_option("--rays", request.rays, "Rays a point, for methods that trace (traced: 64)")
         ->type_name("N");
     verb.add_option("--seed", request.seed, "Seed of the directions")->type_name("N");
-    verb.add_option("--set", request.set, "A parameter of the method, as `alcove methods` lists them")
+    verb.add_option(
+            "--set", request.set,
+            "A parameter, as `alcove methods` lists them, of the method or of the first that has it among "
+            "those that supply what it does not give")
         ->type_name("NAME=VALUE");
 }
 

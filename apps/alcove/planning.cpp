@@ -13,9 +13,8 @@ void add_planning_options(CLI::App& verb, PlanningRequest& request) {
                     throw UsageError(fmt::format("--error takes an RMSE from 0.001 to 1, not '{:g}'", error));
                 request.error = error;
             },
-            "Choose the cheapest method, rays and voxel whose RMSE against exact rays is E at most (0.001 to "
-            "1); goes "
-            "without --method, --samples, --rays, --set, --voxel and --self")
+            "Choose the cheapest method, rays and voxel whose RMSE against exact rays is at most E, "
+            "0.001 to 1; goes without --method, --samples, --rays, --set, --voxel and --self")
         ->type_name("E");
     verb.add_flag_callback(
         "--no-pilot", [&request] { request.pilot = false; },

@@ -12,8 +12,9 @@ namespace alcove {
 ///  1. The Morton rank shifts the lattice of directions by an additive recurrence, so that the rays of
 ///     neighbours together are low-discrepancy too: v_i. M. Roberts, "The Unreasonable Effectiveness of
 ///     Quasirandom Sequences" (2018).
-///  2. The ten probes of Calibrated, what it makes of them and the products of these predict v by a model m,
-///     fitted to the rays of all surfels: A. Hoerl, R. Kennard, "Ridge regression" (1970).
+///  2. The ten probes of Calibrated, what it makes of them, c, their squares and the products of c with the
+///     probes predict v by a model m, fitted to the rays of all surfels: A. Hoerl, R. Kennard, "Ridge
+///     regression" (1970).
 ///  3. What the model leaves, r = v − m, is shared between neighbours, weighted by distance, by normals (nothing
 ///     beyond a right angle) and by the difference of their probes, so that neither the other side of a sheet
 ///     nor the other face of a crease has a say: A. Buades et al., "A review of image denoising algorithms"

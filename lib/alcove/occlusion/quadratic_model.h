@@ -1,4 +1,4 @@
-/// A value that is quadratic in what is known of a surfel, fitted to many noisy ones.
+/// A value by what is known of a surfel and by products of that, fitted to many noisy ones.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace alcove {
 
 struct QuadraticModel {
-    /// Of 1; then of each feature a, that of a itself and those of its products with all features up to a.
+    /// Of 1; then of each feature and its square; of the last, its products with the others in between.
     std::vector<float> weights;
 
     /// values[i] by the features of i, for i from `begin` to `end`.
@@ -19,7 +19,7 @@ struct QuadraticModel {
 /// Least squares over the first `count` of the values and features, or 16,384 of them evenly in runs of 64,
 /// regularised so that terms that tell the same share their weight. A. Hoerl, R. Kennard, "Ridge regression:
 /// biased estimation for nonorthogonal problems" (1970). The same whatever the number of threads. Cost: about
-/// 10 ms for eleven features.
+/// 3 ms for eleven features.
 QuadraticModel fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
                                    std::size_t count);
 
