@@ -1,6 +1,7 @@
 #include "alcove/accuracy/planned_bake.h"
 
 #include "alcove/accuracy/measure.h"
+#include "alcove/accuracy/plan_table.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/plan.h"
 #include "real_mesh.h"
@@ -53,6 +54,27 @@ TEST_F(Planning, ProbesWhereAGridIsThereOrMeshesAreLarge) {
     const Plan plan = Planner(wanted, pilot_).next();
     EXPECT_EQ(plan.choice.method->name, "guided");
     EXPECT_GT(plan.largest_voxel, 0.0f);
+}
+
+TEST_F(Planning, ChoosesCountsOfRaysBetweenThoseOfTheTable) {
+    std::set<double> rays, of_table;
+    for (const plan_table::Row& row : plan_table::rows)
+        of_table.insert(row.samples);
+    double last = 0.0;
+    for (double error = 0.02; error > 0.009; error *= 0.98) {
+        PlanRequest wanted = request(error);
+        wanted.has_grid = true;
+        wanted.surfels = 100'000'000;
+        const Plan plan = Planner(wanted, pilot_).next();
+        ASSERT_EQ(plan.choice.method->name, "guided") << error;
+        EXPECT_GE(plan.choice.rays(), last) << error;
+        last = plan.choice.rays();
+        if (!of_table.contains(last)) {
+            EXPECT_NEAR(plan.rmse, 0.95 * error, 1e-9);
+            rays.insert(last);
+        }
+    }
+    EXPECT_GE(rays.size(), 5u);
 }
 
 TEST_F(Planning, LearnsFromWhatItTried) {

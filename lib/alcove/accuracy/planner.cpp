@@ -47,18 +47,35 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
     candidates_.push_back(
         {{choose(find_method("exact"), rays), 0.0f, error_, tree + surfels * rays * ray_seconds(request)},
          0.0});
-    for (const plan_table::Row& row : plan_table::rows) {
+    const auto rmse_of = [&](const plan_table::Row& row) {
+        return at_radius(row.error_per_deviation, request.radius) * pilot.deviation();
+    };
+    const auto add = [&](const plan_table::Row& row, int samples, double rmse) {
         if (request.has_grid && row.largest_voxel != GridOptions{}.largest_voxel)
-            continue;
-        const MethodChoice choice = choose(find_method(row.method), row.samples);
+            return;
+        const MethodChoice choice = choose(find_method(row.method), samples);
         if (!(request.wanted & Exact::gives).without(choice.method->gives).empty())
-            continue;
+            return;
         const double grid = request.has_grid ? 0.0 : grid_seconds(request, row.largest_voxel);
         const double own = choice.rays() * ray_seconds(request) + row.seconds_per_surfel;
-        candidates_.push_back({{choice, row.largest_voxel,
-                                at_radius(row.error_per_deviation, request.radius) * pilot.deviation(),
+        candidates_.push_back({{choice, row.largest_voxel, rmse,
                                 grid + (choice.method->asks_rays ? tree : 0.0) + surfels * own},
                                grid});
+    };
+    const double target = 0.95 * error_;
+    for (std::size_t i = 0; i < plan_table::rows.size(); ++i) {
+        const plan_table::Row& row = plan_table::rows[i];
+        add(row, row.samples, rmse_of(row));
+        if (i == 0 || !find_method(row.method).asks_rays)
+            continue;
+        // Between two counts of rays, that which is expected to be a little under the wanted error.
+        const plan_table::Row& fewer = plan_table::rows[i - 1];
+        if (fewer.method == row.method && fewer.largest_voxel == row.largest_voxel && rmse_of(row) < target &&
+            target < rmse_of(fewer)) {
+            const double way = std::log(target / rmse_of(fewer)) / std::log(rmse_of(row) / rmse_of(fewer));
+            const double samples = fewer.samples * std::pow(double(row.samples) / fewer.samples, way);
+            add(row, static_cast<int>(std::ceil(samples)), target);
+        }
     }
 }
 

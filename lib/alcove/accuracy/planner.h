@@ -28,9 +28,9 @@ struct Plan {
 
 /// Weighs exact rays, whose number the pilot tells, against guided and calibrated, as far as they give the wanted
 /// channels that exact rays give. Their errors and costs are in plan_table.h: measured on the meshes that
-/// calibrated was fitted to, errors as shares of the deviation of the truth, medians over the meshes. What a bake
-/// turned out to be corrects the others of its method. The plan depends on the mesh alone, not on the speed of the
-/// machine. Not thread-safe.
+/// calibrated was fitted to, errors as shares of the deviation of the truth, medians over the meshes. Counts of
+/// rays between those of the table are reckoned from both. What a bake turned out to be corrects the others of its
+/// method. The plan depends on the mesh alone, not on the speed of the machine. Not thread-safe.
 class Planner {
   public:
     Planner(const PlanRequest& request, const Pilot& pilot);
