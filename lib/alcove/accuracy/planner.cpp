@@ -73,8 +73,10 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
         if (fewer.method == row.method && fewer.largest_voxel == row.largest_voxel && rmse_of(row) < target &&
             target < rmse_of(fewer)) {
             const double way = std::log(target / rmse_of(fewer)) / std::log(rmse_of(row) / rmse_of(fewer));
-            const double samples = fewer.samples * std::pow(double(row.samples) / fewer.samples, way);
-            add(row, static_cast<int>(std::ceil(samples)), target);
+            const auto samples = static_cast<int>(
+                std::ceil(fewer.samples * std::pow(double(row.samples) / fewer.samples, way)));
+            if (samples < row.samples)
+                add(row, samples, target);
         }
     }
 }

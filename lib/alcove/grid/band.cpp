@@ -21,7 +21,8 @@ void descend(const TriangleTree& tree, const BandBlock& from, Block block, int s
     for (int i = 0; i < 8; ++i)
         if (auto& part = parts[static_cast<std::size_t>(i)]; !part.empty()) {
             block.low = from.low + block.size * Index3(i >> 2, i >> 1 & 1, i & 1);
-            descend(tree, {block.low, std::move(part)}, block, smallest, reach, out);
+            // Copied, to have no more room than it takes.
+            descend(tree, {block.low, Nodes(part)}, block, smallest, reach, out);
         }
 }
 

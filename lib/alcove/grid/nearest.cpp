@@ -71,7 +71,7 @@ struct NearestOfEight {
 NearestOfEight nearest_of(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
                           const EightPoints& voxels, float limit, Sieve& sieve) {
     NearestOfEight best(limit);
-    const auto wanting = [&](std::uint32_t node) {
+    const auto wanting = [&](std::uint32_t node) HWY_ATTR {
         std::uint32_t bits = 0;
         for (int lane = 0; lane < eight; lane += lanes) {
             const V least = length2(way_from(tree.nodes[node], voxels.from(Index3(0), lane)));
@@ -80,7 +80,7 @@ NearestOfEight nearest_of(const TriangleTree& tree, std::span<const std::uint32_
         }
         return bits;
     };
-    const auto take = [&](std::span<const Shares::Share> shares) {
+    const auto take = [&](std::span<const Shares::Share> shares) HWY_ATTR {
         for (const auto& [node, bits] : shares)
             best.take(tree.triangles[tree.nodes[node].child], bits, voxels);
     };
@@ -88,7 +88,7 @@ NearestOfEight nearest_of(const TriangleTree& tree, std::span<const std::uint32_
     const NearestNodes first(tree, nodes, voxels);
     take(sieve.sift(tree, first.nodes(), -1.0f, wanting));
     take(sieve.sift(tree, nodes, -1.0f,
-                    [&](std::uint32_t node) { return first.has(node) ? 0 : wanting(node); }));
+                    [&](std::uint32_t node) HWY_ATTR { return first.has(node) ? 0 : wanting(node); }));
     return best;
 }
 
@@ -114,7 +114,7 @@ void split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
                  const float (&reach)[eight], Sieve& sieve, std::array<Nodes, eight>& parts) {
     const Octants octants = known_octants(tree, block, reach, NearestNodes(tree, nodes, octants_of(block)));
     sieve.sift(tree, nodes, diagonal * half_of(block),
-               [&](std::uint32_t node) { return octants.wanting(tree.nodes[node]); });
+               [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree.nodes[node]); });
     sieve.shares().share_out(parts);
 }
 
@@ -163,7 +163,7 @@ class BrickSearch {
         const NearestNodes first(tree_, nodes, octants_of(block));
         Octants octants = known_octants(tree_, block, reach, first);
         triangles_.clear();
-        const auto look = [&](std::span<const Shares::Share> shares) {
+        const auto look = [&](std::span<const Shares::Share> shares) HWY_ATTR {
             for (const auto& [node, bits] : shares) {
                 const std::uint32_t child = tree_.nodes[node].child;
                 const TriangleGroup& g = tree_.triangles[child];
@@ -172,10 +172,10 @@ class BrickSearch {
                     triangles_.add(eight * child + i, octants.look(g, i));
             }
         };
-        const auto wanting = [&](std::uint32_t node) { return octants.wanting(tree_.nodes[node]); };
+        const auto wanting = [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree_.nodes[node]); };
         look(sieve_.sift(tree_, first.nodes(), -1.0f, wanting));
         look(sieve_.sift(tree_, nodes, -1.0f,
-                         [&](std::uint32_t node) { return first.has(node) ? 0 : wanting(node); }));
+                         [&](std::uint32_t node) HWY_ATTR { return first.has(node) ? 0 : wanting(node); }));
         triangles_.share_out(wanted_);
         for (int i = 0; i < eight; ++i) {
             const auto& part = wanted_[static_cast<std::size_t>(i)];
@@ -206,7 +206,8 @@ class BrickSearch {
         const std::uint64_t row = ((std::uint64_t{1} << size) - 1) << low.z, rows = row * 0x0101010101010101;
         const std::uint64_t wanted = rows & ((std::uint64_t{1} << 8 * size) - 1) << 8 * low.y;
         for (int x = low.x; x < low.x + size; ++x) {
-            std::uint64_t slice;
+            std::uint64_t slice; // y from the lowest byte on
+            static_assert(std::endian::native == std::endian::little);
             std::memcpy(&slice, limits_.rows + x * brick_size, sizeof slice);
             if ((slice & wanted) != wanted)
                 return limits_.outer;

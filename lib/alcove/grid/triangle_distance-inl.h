@@ -26,7 +26,7 @@ struct FromSides {
 /// `of` gives what a row of the group says of the triangles in the lanes.
 template <class Of>
 HWY_INLINE FromSides from_sides(const TriangleGroup& g, const Of& of, const Vec3v& p) {
-    const auto along = [&](const float(&axis)[3][eight], int k) {
+    const auto along = [&](const float(&axis)[3][eight], int k) HWY_ATTR {
         return hn::MulAdd(p.x, of(axis[0]),
                           hn::MulAdd(p.y, of(axis[1]), hn::MulSub(p.z, of(axis[2]), of(g.a[k]))));
     };
@@ -36,7 +36,7 @@ HWY_INLINE FromSides from_sides(const TriangleGroup& g, const Of& of, const Vec3
     from.y = y;
     const V zero = hn::Zero(d), b = of(g.b), c0 = of(g.c[0]), c1 = of(g.c[1]);
     const V beyond_b = hn::Sub(x, b), bc0 = hn::Sub(c0, b);
-    const auto part = [&](V along_x, const float(&side)[2][eight]) {
+    const auto part = [&](V along_x, const float(&side)[2][eight]) HWY_ATTR {
         return clamp01(hn::MulAdd(along_x, of(side[0]), hn::Mul(y, of(side[1]))));
     };
     const V on_ac = part(x, g.per_ac), on_bc = part(beyond_b, g.per_bc);
@@ -62,25 +62,25 @@ HWY_INLINE V distance2(const FromSides& from) {
 /// Squared distances of the i-th triangle from points, these relative to the group's origin.
 HWY_INLINE V distance2(const TriangleGroup& g, std::uint32_t i, const Vec3v& p) {
     return distance2(from_sides(
-        g, [i](const float(&row)[eight]) { return hn::Set(d, row[i]); }, p));
+        g, [i](const float(&row)[eight]) HWY_ATTR { return hn::Set(d, row[i]); }, p));
 }
 
 /// Squared distances of all triangles, from the lane on, from a point.
 HWY_INLINE V distances2(const TriangleGroup& g, int lane, const Vec3v& p) {
     return distance2(from_sides(
-        g, [lane](const float(&row)[eight]) { return hn::Load(d, row + lane); }, p));
+        g, [lane](const float(&row)[eight]) HWY_ATTR { return hn::Load(d, row + lane); }, p));
 }
 
 /// The ways to points from the nearest point of the i-th triangle.
 HWY_INLINE Vec3v way_from(const TriangleGroup& g, std::uint32_t i, const Vec3v& p) {
-    const auto of = [i](const float(&row)[eight]) { return hn::Set(d, row[i]); };
+    const auto of = [i](const float(&row)[eight]) HWY_ATTR { return hn::Set(d, row[i]); };
     const FromSides from = from_sides(g, of, p);
     const M ac = hn::Lt(from.ac2, from.ab2), bc = hn::Lt(from.bc2, hn::Min(from.ab2, from.ac2));
     const V x = hn::IfThenZeroElse(from.inside,
                                    hn::IfThenElse(bc, from.x_bc, hn::IfThenElse(ac, from.x_ac, from.x_ab)));
     const V y =
         hn::IfThenZeroElse(from.inside, hn::IfThenElse(bc, from.y_bc, hn::IfThenElse(ac, from.y_ac, from.y)));
-    const auto along = [&](int axis) {
+    const auto along = [&](int axis) HWY_ATTR {
         return hn::MulAdd(x, of(g.u[axis]),
                           hn::MulAdd(y, of(g.v[axis]), hn::Mul(from.height, of(g.n[axis]))));
     };

@@ -202,7 +202,7 @@ Bounds bounds_of(std::span<const Bounds> children) {
         const Vec3 way = b.centre - result.centre;
         const float height = glm::dot(way, result.axis);
         const float cosine = std::min(1.0f, std::fabs(glm::dot(b.axis, result.axis)));
-        const float sine = std::sqrt(1.0f - cosine * cosine);
+        const float sine = std::min(1.0f, glm::length(glm::cross(b.axis, result.axis)));
         const float half = cosine * b.thickness + sine * b.radius;
         if (length2(b.point - result.centre) < length2(result.point - result.centre))
             result.point = b.point;
