@@ -44,11 +44,6 @@ HWY_INLINE Vec3v everywhere(float x, float y, float z) {
     return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
 }
 
-/// The i-th of eight in all lanes.
-HWY_INLINE Vec3v one(const float (&v)[3][eight], std::uint32_t i) {
-    return everywhere(v[0][i], v[1][i], v[2][i]);
-}
-
 HWY_INLINE V dot(const Vec3v& a, const Vec3v& b) {
     return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
@@ -68,11 +63,6 @@ HWY_INLINE Vec3v times(V s, const Vec3v& v) {
 /// a − s b
 HWY_INLINE Vec3v less(const Vec3v& a, V s, const Vec3v& b) {
     return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
-}
-
-HWY_INLINE Vec3v cross(const Vec3v& a, const Vec3v& b) {
-    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
 HWY_INLINE Vec3v choose(M mask, const Vec3v& yes, const Vec3v& no) {

@@ -80,7 +80,8 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
                  const std::vector<Vec3d>& positions, std::span<const Triangle> triangles,
                  std::vector<std::string>& warnings) {
     const double leaking = columns.leaking();
-    const bool sound = leaking == 0.0 && !columns.overlapping() && balanced(triangles);
+    const bool overlapping = columns.overlapping();
+    const bool sound = leaking == 0.0 && !overlapping && balanced(triangles);
     const Closedness shape = sound ? Closedness{} : closedness(mesh);
     warn_of_orientation(shape, warnings);
     if (choice == SignChoice::sheet)
@@ -97,7 +98,7 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
         return Sign::solid;
     if (!shape.closed() || leaking > 0.0)
         return Sign::sheet;
-    return columns.overlapping() && buries_a_part(columns, positions, triangles) ? Sign::sheet : Sign::solid;
+    return overlapping && buries_a_part(columns, positions, triangles) ? Sign::sheet : Sign::solid;
 }
 
 }

@@ -43,7 +43,7 @@ float inverse(float v) {
 
 void set_frames(const Corners& corners, TriangleGroup& g) {
     const auto& [a, ab, ac] = corners;
-    Eight ab2, ac2, along, height2;
+    Eight ab2, ac2, along, height2, has_height;
     dot(ab, ab, ab2);
     dot(ac, ac, ac2);
     for (int i = 0; i < eight; ++i) {
@@ -72,7 +72,7 @@ void set_frames(const Corners& corners, TriangleGroup& g) {
         g.v[0][i] = flat ? side * (steep ? -z : -y) : scale * height[0][i];
         g.v[1][i] = flat ? (steep ? 0.0f : side * x) : scale * height[1][i];
         g.v[2][i] = flat ? (steep ? side * x : 0.0f) : scale * height[2][i];
-        height2[i] = flat ? 0.0f : 1.0f;
+        has_height[i] = flat ? 0.0f : 1.0f;
     }
     dot(ac, g.u, g.c[0]);
     dot(ac, g.v, g.c[1]);
@@ -80,7 +80,7 @@ void set_frames(const Corners& corners, TriangleGroup& g) {
         g.n[0][i] = g.u[1][i] * g.v[2][i] - g.u[2][i] * g.v[1][i];
         g.n[1][i] = g.u[2][i] * g.v[0][i] - g.u[0][i] * g.v[2][i];
         g.n[2][i] = g.u[0][i] * g.v[1][i] - g.u[1][i] * g.v[0][i];
-        g.c[1][i] *= height2[i];
+        g.c[1][i] *= has_height[i];
         const float c0 = g.c[0][i], c1 = g.c[1][i], bc0 = c0 - g.b[i];
         const float per_ac = inverse(c0 * c0 + c1 * c1), per_bc = inverse(bc0 * bc0 + c1 * c1);
         g.per_ac[0][i] = c0 * per_ac;

@@ -31,19 +31,24 @@ std::vector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const V
     return positions;
 }
 
+TriangleTree tree_of(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
+    const GroupedPieces pieces(positions, triangles);
+    if (pieces.count() == 0)
+        throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
+    return TriangleTree(pieces);
+}
+
 }
 
 GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options) {
     const LevelPlan plan = plan_levels(mesh, triangles, options.grid);
     GridStack stack;
-    stack.frame = frame_of(mesh.box());
+    const Box box = mesh.box();
+    stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
-    const Vec3 origin = origin_of(mesh.box(), stack.frame, plan);
+    const Vec3 origin = origin_of(box, stack.frame, plan);
     const std::vector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
-    const GroupedPieces pieces(positions, triangles);
-    if (pieces.count() == 0)
-        throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
-    const TriangleTree tree(pieces);
+    const TriangleTree tree = tree_of(positions, triangles);
     const WindingColumns columns(positions, triangles);
 
     if (plan.voxel > 0.25f * options.grid.radius)

@@ -16,7 +16,7 @@ namespace alcove {
 class RaySurface {
   public:
     /// In unit space; nothing is kept of the spans. Triangles may be degenerate, and one with a corner that is
-    /// not finite is left out. Cost: about 0.5 µs a triangle. \throw InputError where a corner names no
+    /// not finite is left out. Cost: about 0.2 µs a triangle. \throw InputError where a corner names no
     /// position; LimitError where there is too little memory.
     RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
