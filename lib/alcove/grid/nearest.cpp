@@ -213,7 +213,7 @@ class BrickSearch {
         for (int x = low.x; x < low.x + size; ++x) {
             std::uint64_t slice; // y from the lowest byte on
             static_assert(std::endian::native == std::endian::little);
-            std::memcpy(&slice, limits_.rows + x * brick_size, sizeof slice);
+            std::memcpy(&slice, limits_.rows + std::ptrdiff_t{x} * brick_size, sizeof slice);
             if ((slice & wanted) != wanted)
                 return limits_.outer;
         }
