@@ -11,7 +11,6 @@ set(alcove_internal_headers
     grid/octants-inl.h
     grid/pieces.h
     grid/pseudonormals.h
-    grid/radix_sort.h
     grid/sieve.h
     grid/solidity.h
     grid/triangle_distance-inl.h
@@ -28,8 +27,10 @@ set(alcove_internal_headers
     mesh/ply_parse.h
     mesh/text_scanner.h
     mesh/weld.h
+    morton.h
     occlusion/neighbourhood.h
     occlusion/quadratic_model.h
     occlusion/shared_rays.h
     occlusion/triangle_pairs.h
+    radix_sort.h
     render/camera_rays.h)

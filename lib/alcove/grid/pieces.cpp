@@ -1,6 +1,7 @@
 #include "alcove/grid/pieces.h"
 
 #include "alcove/huge_pages.h"
+#include "alcove/morton.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -33,19 +34,6 @@ void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, Visit&& visit) {
     const Vec3d middle = 0.5 * (b + c);
     cut(a, b, middle, visit);
     cut(a, middle, c, visit);
-}
-
-std::uint64_t spread(std::uint64_t x) { // two zero bits after each of 21
-    x = (x | x << 32) & 0x1f00000000ffff;
-    x = (x | x << 16) & 0x1f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    return (x | x << 2) & 0x1249249249249249;
-}
-
-std::uint64_t morton(const Vec3d& cell) {
-    return spread(static_cast<std::uint64_t>(cell.x)) << 2 | spread(static_cast<std::uint64_t>(cell.y)) << 1 |
-           spread(static_cast<std::uint64_t>(cell.z));
 }
 
 bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
@@ -103,7 +91,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
             const Vec3d &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
                         &c = positions[triangles[t][2]];
             const auto key = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
-                return morton(scale / 3.0 * (p + q + r));
+                return morton_code(scale / 3.0 * (p + q + r));
             };
             if (!has_area(a, b, c))
                 continue;
@@ -128,7 +116,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
                 {part.key, static_cast<std::uint32_t>(triangles.size() + parts_.size() + part.value)});
         parts_.insert(parts_.end(), block.pieces.begin(), block.pieces.end());
     }
-    radix_sort(order_, 3 * (std::ilogb(scale * extent) + 1));
+    radix_sort(order_, 0, 3 * (std::ilogb(scale * extent) + 1));
     reserve_huge(begin_, count + 1);
     begin_.push_back(0);
     if (count > 0)

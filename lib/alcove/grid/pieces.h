@@ -2,7 +2,7 @@
 /// Internal to grid/.
 #pragma once
 
-#include "alcove/grid/radix_sort.h"
+#include "alcove/radix_sort.h"
 #include "alcove/types.h"
 
 #include <glm/gtc/type_precision.hpp>
@@ -26,7 +26,7 @@ struct Piece {
 /// voxel has to look at does not grow with the size of triangles.
 inline constexpr double longest_piece = 4.0;
 
-/// All pieces of a surface along a Morton curve (G. M. Morton, 1966), in groups by the cells of the octree that
+/// All pieces of a surface along a Morton curve, in groups by the cells of the octree that
 /// the curve runs through, so that no group spans a jump of the curve. Triangles without an area are left out:
 /// their edges belong to their neighbours. The result does not depend on the number of threads. Const use is
 /// thread-safe. Cost: linear, about 80 ns a piece, 20 more to ask for it.

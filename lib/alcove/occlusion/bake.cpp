@@ -1,54 +1,43 @@
 #include "alcove/occlusion/bake.h"
 
+#include "alcove/huge_pages.h"
+#include "alcove/morton.h"
+#include "alcove/radix_sort.h"
+
 #include <algorithm>
 #include <tuple>
 
 namespace alcove {
-namespace {
-
-/// Every third bit of the result, from the lowest 21 of x.
-std::uint64_t spread(std::uint64_t x) {
-    x &= 0x1fffff;
-    x = (x | x << 32) & 0x1f00000000ffff;
-    x = (x | x << 16) & 0x1f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    x = (x | x << 2) & 0x1249249249249249;
-    return x;
-}
-
-}
-
 std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     Box box;
     for (const Surfel& s : surfels)
         if (s.has_normal())
             box.add(Vec3d(s.position));
-    struct Key {
-        std::uint64_t code;
-        std::uint32_t index;
-    };
-    std::vector<Key> keys;
-    keys.reserve(surfels.size());
-    constexpr double cells = 1 << 20;
+    std::vector<Keyed> keys;
+    reserve_huge(keys, surfels.size());
+    constexpr double cells = 1 << (morton_bits - 1);
     const Vec3d scale = cells / glm::max(box.max - box.min, Vec3d(1e-300));
     for (std::uint32_t i = 0; i < surfels.size(); ++i)
-        if (surfels[i].has_normal()) {
-            const Vec3d cell = (Vec3d(surfels[i].position) - box.min) * scale;
-            const auto code = [](double x) { return spread(static_cast<std::uint64_t>(x)); };
-            keys.push_back({code(cell.x) << 2 | code(cell.y) << 1 | code(cell.z), i});
-        }
-    // Within a cell, by what the surfels are: their order in the list may not matter.
-    const auto tuple = [&](const Key& key) {
-        const Surfel& s = surfels[key.index];
+        if (surfels[i].has_normal())
+            keys.push_back({morton_code((Vec3d(surfels[i].position) - box.min) * scale), i});
+    // Few share even the upper half of their codes. Within a cell, by what the surfels are: their order in the
+    // list may not matter.
+    constexpr int code_bits = 3 * morton_bits, sorted_by_radix = 33;
+    radix_sort(keys, code_bits - sorted_by_radix, code_bits);
+    const auto tuple = [&](const Keyed& key) {
+        const Surfel& s = surfels[key.value];
         return std::tuple(s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
-                          key.index);
+                          key.value);
     };
-    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-        return a.code != b.code ? a.code < b.code : tuple(a) < tuple(b);
-    });
+    const auto upper = [&](const Keyed& key) { return key.key >> (code_bits - sorted_by_radix); };
+    for (auto begin = keys.begin(), end = begin; begin != keys.end(); begin = end) {
+        end = std::find_if(begin, keys.end(), [&](const Keyed& key) { return upper(key) != upper(*begin); });
+        std::sort(begin, end, [&](const Keyed& a, const Keyed& b) {
+            return a.key != b.key ? a.key < b.key : tuple(a) < tuple(b);
+        });
+    }
     std::vector<std::uint32_t> order(keys.size());
-    std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& k) { return k.index; });
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const Keyed& k) { return k.value; });
     return order;
 }
 

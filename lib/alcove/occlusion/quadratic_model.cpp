@@ -7,13 +7,8 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t run = 64, most_runs = 256;
+constexpr std::size_t run = 64, least_runs = 64, most_runs = 256;
 constexpr double ridge = 1e-3; // of each term's mean square, which is of the order of 1
-
-/// The products of feature a are those with the features from this one to itself.
-std::size_t first_factor(std::size_t a, std::size_t features) {
-    return a + 1 == features ? 0 : a;
-}
 
 }
 
@@ -26,7 +21,7 @@ void QuadraticModel::predict(std::span<const float* const> features, std::size_t
         for (std::size_t a = 0; a < features.size(); ++a) {
             float slope[run];
             std::fill_n(slope, run, weights[term++]);
-            for (std::size_t b = first_factor(a, features.size()); b <= a; ++b, ++term)
+            for (std::size_t b = 0; b <= a; ++b, ++term)
                 for (std::size_t k = 0; k < lanes; ++k)
                     slope[k] += weights[term] * features[b][at + k];
             for (std::size_t k = 0; k < lanes; ++k)
@@ -37,8 +32,9 @@ void QuadraticModel::predict(std::span<const float* const> features, std::size_t
 
 QuadraticModel fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
                                    std::size_t count) {
-    const std::size_t runs = (count + run - 1) / run, used = std::min(runs, most_runs);
-    const auto terms = static_cast<Eigen::Index>(3 * features.size());
+    const std::size_t runs = (count + run - 1) / run,
+                      used = std::min(runs, std::clamp(runs / 4, least_runs, most_runs));
+    const auto terms = static_cast<Eigen::Index>((features.size() + 1) * (features.size() + 2) / 2);
     using Array = Eigen::Array<float, run, 1>;
     Eigen::MatrixXf block = Eigen::MatrixXf::Zero(run, terms);
     Eigen::MatrixXf products(terms, terms);
@@ -58,7 +54,7 @@ QuadraticModel fit_quadratic_model(std::span<const float* const> features, std::
         for (std::size_t a = 0; a < features.size(); ++a) {
             const Array feature = column(features[a]);
             block.col(term++) = feature;
-            for (std::size_t b = first_factor(a, features.size()); b <= a; ++b)
+            for (std::size_t b = 0; b <= a; ++b)
                 block.col(term++) = feature * column(features[b]);
         }
         products.setZero();

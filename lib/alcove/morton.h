@@ -1,0 +1,28 @@
+/// A curve through cells along which near ones are near. Internal.
+#pragma once
+
+#include "alcove/types.h"
+
+#include <cstdint>
+
+namespace alcove {
+
+/// Cells along an axis: three numbers of so many bits are a code.
+inline constexpr int morton_bits = 21;
+
+/// The place of a cell along the curve, its coordinates' bits in turn, x first. G. M. Morton, "A computer oriented
+/// geodetic data base and a new technique in file sequencing" (1966).
+/// \pre coordinates in [0, 2^21)
+inline std::uint64_t morton_code(const Vec3d& cell) {
+    const auto spread = [](double coordinate) { // two zero bits after each
+        auto x = static_cast<std::uint64_t>(coordinate);
+        x = (x | x << 32) & 0x1f00000000ffff;
+        x = (x | x << 16) & 0x1f0000ff0000ff;
+        x = (x | x << 8) & 0x100f00f00f00f00f;
+        x = (x | x << 4) & 0x10c30c30c30c30c3;
+        return (x | x << 2) & 0x1249249249249249;
+    };
+    return spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z);
+}
+
+}

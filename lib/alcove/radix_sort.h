@@ -1,0 +1,18 @@
+/// Sorts by integer keys in linear time. Internal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace alcove {
+
+struct Keyed {
+    std::uint64_t key;
+    std::uint32_t value;
+};
+
+/// Stable, by the bits of the keys from `low` to below `high`. The work is cut in blocks whose number
+/// depends on the count alone, and spread over the threads.
+void radix_sort(std::vector<Keyed>& items, int low, int high);
+
+}
