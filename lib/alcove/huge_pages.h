@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace alcove {
@@ -17,6 +20,32 @@ void reserve_huge(std::vector<T>& values, std::size_t count) {
     values.reserve(count);
     prefer_huge_pages(values.data(), values.capacity() * sizeof(T));
 }
+
+/// Memory on huge pages; values that are given none are left as they are, to be touched first by the thread that
+/// writes them.
+template <class T>
+struct HugeAllocator : std::allocator<T> {
+    template <class U>
+    struct rebind {
+        using other = HugeAllocator<U>;
+    };
+    T* allocate(std::size_t count) {
+        T* values = std::allocator<T>::allocate(count);
+        prefer_huge_pages(values, count * sizeof(T));
+        return values;
+    }
+    template <class U, class... Arguments>
+    void construct(U* at, Arguments&&... arguments) {
+        if constexpr (sizeof...(Arguments) == 0)
+            ::new (static_cast<void*>(at)) U;
+        else
+            ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+    }
+};
+
+/// For what is written in full after it got its size.
+template <class T>
+using HugeVector = std::vector<T, HugeAllocator<T>>;
 
 /// A vector of `count` equal values, on huge pages.
 template <class T>

@@ -1,6 +1,5 @@
 #include "alcove/radix_sort.h"
 
-#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 
 namespace alcove {
 
-void radix_sort(std::vector<Keyed>& items, int low, int high) {
+void radix_sort(HugeVector<Keyed>& items, int low, int high) {
     constexpr int most_digit_bits = 11; // a histogram stays in the first cache
     constexpr std::size_t least_block = 1 << 14, most_blocks = 16;
     using Histogram = std::array<std::uint32_t, 1 << most_digit_bits>;
@@ -17,7 +16,7 @@ void radix_sort(std::vector<Keyed>& items, int low, int high) {
     const std::size_t digits = std::size_t{1} << digit_bits;
     const std::size_t grain = std::max(least_block, (items.size() + most_blocks - 1) / most_blocks);
     std::vector<Histogram> blocks((items.size() + grain - 1) / grain);
-    std::vector<Keyed> other = huge_vector<Keyed>(items.size());
+    HugeVector<Keyed> other(items.size());
     for (int pass = 0; pass < passes; ++pass) {
         const auto digit = [&](const Keyed& item) {
             return item.key >> (low + pass * digit_bits) & (digits - 1);

@@ -1,8 +1,9 @@
 /// Sorts by integer keys in linear time. Internal.
 #pragma once
 
+#include "alcove/huge_pages.h"
+
 #include <cstdint>
-#include <vector>
 
 namespace alcove {
 
@@ -13,6 +14,6 @@ struct Keyed {
 
 /// Stable, by the bits of the keys from `low` to below `high`. The work is cut in blocks whose number
 /// depends on the count alone, and spread over the threads.
-void radix_sort(std::vector<Keyed>& items, int low, int high);
+void radix_sort(HugeVector<Keyed>& items, int low, int high);
 
 }

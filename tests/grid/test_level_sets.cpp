@@ -91,24 +91,27 @@ TEST(LevelSets, DistancesToTriangleSoupsAreThoseOfBruteForce) {
 /// The band holds exactly the voxels within its width.
 TEST(LevelSets, NoVoxelOfTheBandIsMissing) {
     const Mesh mesh = soup(20, 0.3, 3);
-    const GridStack stack = stack_of(mesh, 1.0f / 24.0f, 0.1f, SignChoice::sheet);
-    const LevelSet& level = stack.levels.front();
-    const double unit = level.voxel * stack.frame.diagonal;
-    const auto accessor = level.grid->grid->getConstAccessor();
-    for (int x = 0; x < 44; ++x)
-        for (int y = 0; y < 44; ++y)
-            for (int z = 0; z < 44; ++z) {
-                const Vec3d p =
-                    (Vec3d(level.origin) + double(level.voxel) * Vec3d(x, y, z)) * stack.frame.diagonal +
-                    stack.frame.center;
-                double exact = INFINITY;
-                for (std::size_t t = 0; t < mesh.positions.size(); t += 3)
-                    exact = std::min(exact, triangle_distance(p, mesh.positions[t], mesh.positions[t + 1],
-                                                              mesh.positions[t + 2]));
-                if (std::fabs(exact / unit - level.outer_band) > 1e-4) {
-                    ASSERT_EQ(accessor.isValueOn({x, y, z}), exact / unit < level.outer_band);
+    const GridStack stack = stack_of(mesh, 1.0f / 24.0f, 0.4f, SignChoice::sheet);
+    ASSERT_GE(stack.levels.size(), 3u);
+    for (const LevelSet& level : stack.levels) {
+        const double unit = level.voxel * stack.frame.diagonal;
+        const auto accessor = level.grid->grid->getConstAccessor();
+        const int side = static_cast<int>(3.2f / level.voxel);
+        for (int x = 0; x < side; ++x)
+            for (int y = 0; y < side; ++y)
+                for (int z = 0; z < side; ++z) {
+                    const Vec3d p =
+                        (Vec3d(level.origin) + double(level.voxel) * Vec3d(x, y, z)) * stack.frame.diagonal +
+                        stack.frame.center;
+                    double exact = INFINITY;
+                    for (std::size_t t = 0; t < mesh.positions.size(); t += 3)
+                        exact = std::min(exact, triangle_distance(p, mesh.positions[t], mesh.positions[t + 1],
+                                                                  mesh.positions[t + 2]));
+                    if (std::fabs(exact / unit - level.outer_band) > 1e-4) {
+                        ASSERT_EQ(accessor.isValueOn({x, y, z}), exact / unit < level.outer_band);
+                    }
                 }
-            }
+    }
 }
 
 TEST(LevelSets, AgreeWithOpenVdbOnASphere) {

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace alcove {
 namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// The blocks of `smallest` voxels in a block, each with its nodes.
 void descend(const TriangleTree& tree, const BandBlock& from, Block block, int smallest, float reach,
@@ -62,13 +65,19 @@ std::vector<BandBlock> Band::blocks(int stride) const {
     return all;
 }
 
-BandBrick Band::brick(const BandBlock& block, int stride) const {
+BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float, brick_volume> known) const {
     const auto units = static_cast<float>(stride);
     const Block at{block.low, brick_size, stride};
     std::array<std::uint8_t, brick_rows> inside{};
     if (columns_)
         inside = columns_->inside(at);
     NearestTriangles nearest;
+    for (std::size_t voxel = 0; voxel < brick_volume; ++voxel) {
+        const float distance = units * known[voxel];
+        // The side of a sheet is that of the nearest triangle.
+        const bool taken = !normals_ || known[voxel] > sheet_thickness;
+        nearest.distance2[voxel] = taken ? distance * distance : infinite;
+    }
     nearest_triangles(*tree_, block.nodes, at, {inside.data(), width_.outer * units, width_.inner * units},
                       nearest);
 

@@ -7,6 +7,7 @@
 #include "alcove/grid/winding.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace alcove {
@@ -52,8 +53,9 @@ class Band {
     /// The bricks of a level whose voxels are `stride` apart in the tree's units, in an order of their own.
     std::vector<BandBlock> blocks(int stride) const;
 
+    /// `known` are distances, voxels, z fastest, that need not be looked for again: none where they are infinite.
     /// Thread-safe.
-    BandBrick brick(const BandBlock& block, int stride) const;
+    BandBrick brick(const BandBlock& block, int stride, std::span<const float, brick_volume> known) const;
 
   private:
     const TriangleTree* tree_;

@@ -6,6 +6,9 @@
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace alcove {
@@ -16,9 +19,35 @@ using openvdb::FloatTree;
 using Leaf = FloatTree::LeafNodeType;
 static_assert(Leaf::DIM == brick_size && Leaf::NodeMaskType::WORD_COUNT == brick_size);
 
+/// The distances of a brick that are those of every second voxel of the finer level, in voxels; infinite where that has
+/// none.
+std::array<float, brick_volume> known_distances(const LevelSet* finer, const Index3& low,
+                                                double value_scale) {
+    std::array<float, brick_volume> known;
+    known.fill(std::numeric_limits<float>::infinity());
+    if (!finer)
+        return known;
+    const FloatTree& tree = finer->grid->grid->constTree();
+    constexpr int half = brick_size / 2;
+    for (int octant = 0; octant < 8; ++octant) {
+        const Index3 part = half * Index3(octant >> 2, octant >> 1 & 1, octant & 1), at = 2 * (low + part);
+        const Leaf* leaf = tree.probeConstLeaf(Coord(at.x, at.y, at.z));
+        if (!leaf)
+            continue;
+        for (int x = 0; x < half; ++x)
+            for (int y = 0; y < half; ++y)
+                for (int z = 0; z < half; ++z)
+                    if (const auto i = Leaf::coordToOffset(Coord(2 * x, 2 * y, 2 * z)); leaf->isValueOn(i))
+                        known[static_cast<std::size_t>(((part.x + x) * brick_size + part.y + y) * brick_size +
+                                                       part.z + z)] =
+                            static_cast<float>(std::fabs(leaf->getValue(i)) / value_scale);
+    }
+    return known;
 }
 
-LevelSet level_set(const Band& band, int stride, double value_scale) {
+}
+
+LevelSet level_set(const Band& band, int stride, double value_scale, const LevelSet* finer) {
     const auto scaled = [&](float voxels) { return static_cast<float>(voxels * value_scale); };
     const float outside = scaled(band.width().outer), inside = scaled(-band.width().inner);
     const std::vector<BandBlock> blocks = band.blocks(stride);
@@ -26,7 +55,8 @@ LevelSet level_set(const Band& band, int stride, double value_scale) {
     std::vector<std::size_t> counts(blocks.size());
     parallel_for(blocks.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            const BandBrick brick = band.brick(blocks[b], stride);
+            const BandBrick brick =
+                band.brick(blocks[b], stride, known_distances(finer, blocks[b].low, value_scale));
             counts[b] = brick.count;
             if (brick.count == 0)
                 continue;

@@ -24,10 +24,12 @@ struct NearestOfEight {
     alignas(64) float distance2[eight];
     alignas(64) std::uint32_t triangle[eight];
 
-    /// Only what is nearer than the limit.
-    explicit NearestOfEight(float limit) {
-        std::fill_n(distance2, eight, limit * limit);
-        std::fill_n(triangle, eight, none);
+    /// Only what is nearer than the limit, and nothing where there is no need.
+    NearestOfEight(float limit, std::uint32_t needed) {
+        for (int i = 0; i < eight; ++i) {
+            distance2[i] = (needed >> i & 1) != 0 ? limit * limit : -1.0f;
+            triangle[i] = none;
+        }
     }
 
     /// All triangles of a group, where the bits of `wanting` name voxels that may be nearer to it than to others.
@@ -77,10 +79,9 @@ void take_wanted(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
                     [&](std::uint32_t node) HWY_ATTR { return first.has(node) ? 0 : wanting(node); }));
 }
 
-/// What of some nodes is nearest to eight voxels, as far as the limit.
-NearestOfEight nearest_of(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
-                          const EightPoints& voxels, float limit, Sieve& sieve) {
-    NearestOfEight best(limit);
+/// Takes what of some nodes is nearest to eight voxels.
+void take_nearest(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const EightPoints& voxels,
+                  Sieve& sieve, NearestOfEight& best) {
     const auto wanting = [&](std::uint32_t node) HWY_ATTR {
         std::uint32_t bits = 0;
         for (int lane = 0; lane < eight; lane += lanes) {
@@ -95,7 +96,6 @@ NearestOfEight nearest_of(const TriangleTree& tree, std::span<const std::uint32_
             best.take(tree.triangles[tree.nodes[node].child], bits, voxels);
     };
     take_wanted(tree, nodes, NearestNodes(tree, nodes, voxels), sieve, wanting, take);
-    return best;
 }
 
 /// The centres of the octants, themselves voxels where the block is of 2³.
@@ -112,7 +112,7 @@ Octants known_octants(const TriangleTree& tree, const Block& block, const float 
                       const NearestNodes& nearest) {
     float limits[eight];
     for (int i = 0; i < eight; ++i)
-        limits[i] = (reach[i] + diagonal * half_of(block)) * slack;
+        limits[i] = reach[i] < 0.0f ? -1.0f : (reach[i] + diagonal * half_of(block)) * slack;
     return {tree, octants_of(block), half_of(block), limits, nearest};
 }
 
@@ -139,19 +139,27 @@ Index3 octant(const Index3& low, int size, int i) {
 class BrickSearch {
   public:
     BrickSearch(const TriangleTree& tree, const Block& brick, const BrickLimits& limits,
-                NearestTriangles& out)
-        : tree_(tree), brick_(brick), limits_(limits), out_(out) {
-        std::fill_n(out.distance2, brick_volume, std::numeric_limits<float>::infinity());
+                NearestTriangles& nearest)
+        : tree_(tree), brick_(brick), limits_(limits), nearest_(nearest) {
+        for (std::size_t row = 0; row < brick_rows; ++row) {
+            unsigned bits = 0;
+            for (unsigned z = 0; z < brick_size; ++z)
+                bits |= unsigned{std::isfinite(nearest.distance2[row * brick_size + z])} << z;
+            known_[row] = static_cast<std::uint8_t>(bits);
+        }
     }
 
     void search(std::span<const std::uint32_t> nodes, const Index3& low, int size) {
         const Block block{brick_.low + low, size, brick_.stride};
-        if (size == 2)
-            return keep(nearest_of(tree_, nodes, octants_of(block), reach_of(low, size), sieve_), low);
+        if (size == 2) {
+            NearestOfEight best(reach_of(low, size), needed(low));
+            take_nearest(tree_, nodes, octants_of(block), sieve_, best);
+            return keep(best, low);
+        }
         float reach[eight];
         for (int i = 0; i < eight; ++i)
             reach[i] = reach_of(octant(low, size / 2, i), size / 2);
-        if (size == 4 && nodes.size() <= few_nodes)
+        if (size == 4 && nodes.size() <= few_nodes && are_leaves(nodes))
             return search_by_triangle(nodes, block, low, reach);
         std::array<Nodes, eight>& parts = parts_[size == brick_size];
         split_block(tree_, nodes, block, reach, sieve_, parts);
@@ -164,6 +172,11 @@ class BrickSearch {
     // More than this are of several triangles a voxel: to choose among nodes costs less there than among triangles.
     // Measured on a scan with 1 to 28 of them.
     static constexpr std::size_t few_nodes = 64;
+
+    bool are_leaves(std::span<const std::uint32_t> nodes) const {
+        return std::all_of(nodes.begin(), nodes.end(),
+                           [&](std::uint32_t node) { return node < tree_.leaves; });
+    }
 
     void search_by_triangle(std::span<const std::uint32_t> nodes, const Block& block, const Index3& low,
                             const float (&reach)[eight]) {
@@ -188,7 +201,7 @@ class BrickSearch {
                 continue;
             const Index3 at = octant(low, 2, i);
             const EightPoints voxels = octants_of({brick_.low + at, 2, brick_.stride});
-            NearestOfEight best(reach[i]);
+            NearestOfEight best(reach[i], needed(at));
             for (const std::uint32_t t : part)
                 best.take_one(tree_.triangles[t / eight], t % eight, voxels);
             keep(best, at);
@@ -200,30 +213,48 @@ class BrickSearch {
             if (best.triangle[i] == NearestOfEight::none)
                 continue;
             const Index3 at = octant(low, 1, i);
-            const int voxel = (at.x * brick_size + at.y) * brick_size + at.z;
-            out_.distance2[voxel] = best.distance2[i];
-            out_.triangle[voxel] = best.triangle[i];
+            nearest_.distance2[voxel_of(at)] = best.distance2[i];
+            nearest_.triangle[voxel_of(at)] = best.triangle[i];
         }
     }
 
-    /// The furthest that a voxel of a block of 2³ or 4³ looks.
+    static int voxel_of(const Index3& at) { return (at.x * brick_size + at.y) * brick_size + at.z; }
+
+    /// The voxels of a block of 2³ whose distance is not known, a bit each.
+    std::uint32_t needed(const Index3& low) const {
+        std::uint32_t bits = 0;
+        for (int i = 0; i < eight; ++i)
+            bits |= std::uint32_t{!std::isfinite(nearest_.distance2[voxel_of(octant(low, 1, i))])} << i;
+        return bits;
+    }
+
+    /// The furthest that a voxel of a block of 2³ or 4³ looks; below 0 where none has to.
     float reach_of(const Index3& low, int size) const {
         const std::uint64_t row = ((std::uint64_t{1} << size) - 1) << low.z, rows = row * 0x0101010101010101;
         const std::uint64_t wanted = rows & ((std::uint64_t{1} << 8 * size) - 1) << 8 * low.y;
+        float reach = -1.0f;
         for (int x = low.x; x < low.x + size; ++x) {
-            std::uint64_t slice; // y from the lowest byte on
-            static_assert(std::endian::native == std::endian::little);
-            std::memcpy(&slice, limits_.rows + std::ptrdiff_t{x} * brick_size, sizeof slice);
-            if ((slice & wanted) != wanted)
+            const std::uint64_t needed = wanted & ~slice_of(known_.data(), x);
+            if ((slice_of(limits_.rows, x) & needed) != needed)
                 return limits_.outer;
+            if (needed != 0)
+                reach = limits_.inner;
         }
-        return limits_.inner;
+        return reach;
+    }
+
+    static std::uint64_t slice_of(const std::uint8_t* rows, int x) {
+        std::uint64_t slice; // y from the lowest byte on
+        static_assert(std::endian::native == std::endian::little);
+        std::memcpy(&slice, rows + std::ptrdiff_t{x} * brick_size, sizeof slice);
+        return slice;
     }
 
     const TriangleTree& tree_;
     const Block brick_;
     const BrickLimits limits_;
-    NearestTriangles& out_;
+    NearestTriangles& nearest_;
+    std::array<std::uint8_t, brick_rows> known_;    // a bit a voxel, as limits_.rows
     std::array<std::array<Nodes, eight>, 2> parts_; // of blocks of 4³ and of the brick
     Sieve sieve_;
     Shares triangles_;
@@ -231,8 +262,8 @@ class BrickSearch {
 };
 
 void nearest_in_brick(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
-                      const BrickLimits& limits, NearestTriangles& out) {
-    BrickSearch(tree, brick, limits, out).search(nodes, Index3(0), brick_size);
+                      const BrickLimits& limits, NearestTriangles& nearest) {
+    BrickSearch(tree, brick, limits, nearest).search(nodes, Index3(0), brick_size);
 }
 
 }
@@ -251,8 +282,8 @@ void split(const TriangleTree& tree, const Nodes& nodes, const Block& block, flo
 }
 
 void nearest_triangles(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
-                       const BrickLimits& limits, NearestTriangles& out) {
-    HWY_DYNAMIC_DISPATCH(nearest_in_brick)(tree, nodes, brick, limits, out);
+                       const BrickLimits& limits, NearestTriangles& nearest) {
+    HWY_DYNAMIC_DISPATCH(nearest_in_brick)(tree, nodes, brick, limits, nearest);
 }
 
 }

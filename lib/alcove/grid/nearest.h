@@ -29,8 +29,8 @@ inline constexpr int brick_volume = brick_size * brick_size * brick_size;
 
 /// Per voxel of a brick, z fastest.
 struct NearestTriangles {
-    float distance2[brick_volume];        ///< squared, in the tree's units; infinite beyond the limit
-    std::uint32_t triangle[brick_volume]; ///< where the distance is finite
+    float distance2[brick_volume];        ///< squared, in the tree's units; infinite where it is not known
+    std::uint32_t triangle[brick_volume]; ///< where nearest_triangles() found the distance
 };
 
 /// Splits a block in eight, x slowest. Parts get what of the nodes is within `reach` (tree's units) of
@@ -45,9 +45,10 @@ struct BrickLimits {
     float outer, inner;
 };
 
-/// `nodes` as split() gave them for a brick. Thread-safe. Cost: 150 to 300 ns a
+/// Where `nearest` holds no distance yet, and there is one within the limits. `nodes` as split() gave them for the brick.
+/// Thread-safe. Cost: 150 to 300 ns a
 /// voxel within the limits, 1 µs where ten triangles are in a voxel.
 void nearest_triangles(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
-                       const BrickLimits& limits, NearestTriangles& out);
+                       const BrickLimits& limits, NearestTriangles& nearest);
 
 }

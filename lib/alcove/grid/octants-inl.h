@@ -12,6 +12,7 @@
 #include "alcove/grid/triangle_distance-inl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -113,12 +114,12 @@ class NearestNodes {
 class Octants {
   public:
     /// `half` is that of the way from the first voxel of an octant to its last; `limits` how far from the centres to
-    /// look.
+    /// look, below 0 where nothing is wanted.
     Octants(const TriangleTree& tree, const EightPoints& centres, float half, const float (&limits)[eight],
             const NearestNodes& nearest)
         : centres_(centres), half_(half) {
         for (int i = 0; i < eight; ++i) {
-            most_[i] = limits[i] * limits[i];
+            most_[i] = limits[i] * std::fabs(limits[i]);
             for (int axis = 0; axis < 3; ++axis)
                 way_[axis][i] = tree.nodes[nearest.node[i]].point[axis];
         }

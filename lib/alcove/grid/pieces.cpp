@@ -1,6 +1,5 @@
 #include "alcove/grid/pieces.h"
 
-#include "alcove/huge_pages.h"
 #include "alcove/morton.h"
 #include "alcove/parallel.h"
 
@@ -42,7 +41,7 @@ bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 
 /// Halves a range of the curve, always between octants or cells, until groups are small enough.
 void group(std::span<const Keyed> order, std::uint32_t begin, std::uint32_t end,
-           std::vector<std::uint32_t>& out) {
+           HugeVector<std::uint32_t>& out) {
     if (end - begin <= GroupedPieces::largest_group) {
         out.push_back(end);
         return;
@@ -108,7 +107,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
     std::size_t count = 0;
     for (const Cut& block : blocks)
         count += block.whole.size() + block.parts.size();
-    reserve_huge(order_, count);
+    order_.reserve(count);
     for (const Cut& block : blocks) {
         order_.insert(order_.end(), block.whole.begin(), block.whole.end());
         for (const Keyed& part : block.parts)
@@ -117,10 +116,21 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
         parts_.insert(parts_.end(), block.pieces.begin(), block.pieces.end());
     }
     radix_sort(order_, 0, 3 * (std::ilogb(scale * extent) + 1));
-    reserve_huge(begin_, count + 1);
+    begin_.reserve(count + 1);
     begin_.push_back(0);
     if (count > 0)
         group(order_, 0, static_cast<std::uint32_t>(count), begin_);
+}
+
+void GroupedPieces::expect(std::size_t i) const {
+    constexpr std::size_t ahead = 32; // of the triangle; its corners half as much
+    if (i + ahead >= order_.size())
+        return;
+    if (const std::uint32_t later = order_[i + ahead].value; later < triangles_.size())
+        __builtin_prefetch(&triangles_[later]);
+    if (const std::uint32_t next = order_[i + ahead / 2].value; next < triangles_.size())
+        for (const std::uint32_t corner : triangles_[next])
+            __builtin_prefetch(&positions_[corner]);
 }
 
 Piece GroupedPieces::piece(std::size_t i) const {

@@ -40,13 +40,15 @@ class GroupedPieces {
     std::size_t count() const { return begin_.size() - 1; } ///< of groups
     std::size_t begin(std::size_t group) const { return begin_[group]; }
     Piece piece(std::size_t i) const; ///< from begin() of its group to that of the next
+    /// To be called for one after the other: what they are made of lies all over memory.
+    void expect(std::size_t i) const;
 
   private:
     std::span<const Vec3d> positions_;
     std::span<const Triangle> triangles_;
-    std::vector<Keyed> order_;         // by triangle, or index in parts_ beyond the triangles
-    std::vector<Piece> parts_;         // of triangles that were cut
-    std::vector<std::uint32_t> begin_; // groups + 1 offsets into order_
+    HugeVector<Keyed> order_;         // by triangle, or index in parts_ beyond the triangles
+    std::vector<Piece> parts_;        // of triangles that were cut
+    HugeVector<std::uint32_t> begin_; // groups + 1 offsets into order_
 };
 
 }

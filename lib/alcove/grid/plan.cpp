@@ -1,11 +1,14 @@
 #include "alcove/grid/plan.h"
 
 #include "alcove/errors.h"
+#include "alcove/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace alcove {
 namespace {
@@ -41,14 +44,19 @@ struct Estimate {
 
 double surface_area(const Mesh& mesh, std::span<const Triangle> triangles) {
     const Frame frame = frame_of(mesh.box());
-    double sum = 0.0;
-    for (const Triangle& t : triangles) {
-        const Vec3d a = (mesh.positions[t[0]] - frame.center) / frame.diagonal;
-        const Vec3d b = (mesh.positions[t[1]] - frame.center) / frame.diagonal;
-        const Vec3d c = (mesh.positions[t[2]] - frame.center) / frame.diagonal;
-        sum += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-    return sum;
+    const double scale = 1.0 / frame.diagonal;
+    constexpr std::size_t grain = 16384;
+    std::vector<double> sums((triangles.size() + grain - 1) / grain);
+    parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+        double sum = 0.0;
+        for (const Triangle& t : triangles.subspan(begin, end - begin)) {
+            const Vec3d& a = mesh.positions[t[0]];
+            sum += glm::length(
+                glm::cross(scale * (mesh.positions[t[1]] - a), scale * (mesh.positions[t[2]] - a)));
+        }
+        sums[begin / grain] = 0.5 * sum;
+    });
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 float chosen_voxel(float radius, float largest_voxel) {

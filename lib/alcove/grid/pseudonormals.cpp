@@ -19,7 +19,7 @@ float corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
 
 }
 
-Pseudonormals::Pseudonormals(const std::vector<Vec3d>& positions, std::span<const Triangle> triangles)
+Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles)
     : positions_(positions), triangles_(triangles), joined_(weld(positions)),
       face_normals_(triangles.size(), Vec3(0.0f)) {
     parallel_for(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {

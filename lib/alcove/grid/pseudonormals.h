@@ -14,7 +14,7 @@ namespace alcove {
 class Pseudonormals {
   public:
     /// Positions and triangles must outlive this.
-    Pseudonormals(const std::vector<Vec3d>& positions, std::span<const Triangle> triangles);
+    Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
     /// The sign of the side of `triangle`, the nearest to `p`: negative behind it; 0 at the rim of an open
     /// surface, which has no side.

@@ -53,7 +53,7 @@ bool balanced(std::span<const Triangle> triangles) {
 }
 
 /// Whether a connected part of the surface is practically nowhere between inside and outside.
-bool buries_a_part(const WindingColumns& columns, const std::vector<Vec3d>& positions,
+bool buries_a_part(const WindingColumns& columns, std::span<const Vec3d> positions,
                    std::span<const Triangle> triangles) {
     const std::vector<std::uint32_t> joined = weld(positions);
     DisjointSets parts(joined.size());
@@ -77,7 +77,7 @@ bool buries_a_part(const WindingColumns& columns, const std::vector<Vec3d>& posi
 }
 
 Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns,
-                 const std::vector<Vec3d>& positions, std::span<const Triangle> triangles,
+                 std::span<const Vec3d> positions, std::span<const Triangle> triangles,
                  std::vector<std::string>& warnings) {
     const double leaking = columns.leaking();
     const bool overlapping = columns.overlapping();

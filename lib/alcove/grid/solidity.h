@@ -18,7 +18,7 @@ namespace alcove {
 /// wrong way, unless the columns find winding numbers of 0 and 1 alone, and no edge is run more often one way than
 /// the other: 10 ns a triangle for nearly all meshes then, else those of closedness().
 Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns,
-                 const std::vector<Vec3d>& positions, std::span<const Triangle> triangles,
+                 std::span<const Vec3d> positions, std::span<const Triangle> triangles,
                  std::vector<std::string>& warnings);
 
 }

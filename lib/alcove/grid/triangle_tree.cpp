@@ -1,6 +1,5 @@
 #include "alcove/grid/triangle_tree.h"
 
-#include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -173,6 +172,8 @@ Bounds make_group(const GroupedPieces& pieces, std::size_t g, TriangleGroup& gro
     group.count = static_cast<std::uint32_t>(count);
     Corners corners;
     for (std::size_t i = 0; i < eight; ++i) {
+        if (i < count)
+            pieces.expect(begin + i);
         const Piece p = i > 0 && i < count ? pieces.piece(begin + i) : first;
         const Vec3 a = Vec3(p.origin - group.origin) + p.corners[0];
         for (int axis = 0; axis < 3; ++axis) {
@@ -223,18 +224,23 @@ std::size_t in_eights(std::size_t count) {
 }
 
 TriangleTree::TriangleTree(const GroupedPieces& pieces) {
-    triangles = huge_vector<TriangleGroup>(pieces.count());
+    triangles.resize(pieces.count());
     std::size_t total = in_eights(triangles.size());
     for (std::size_t level = total; level > eight; total += level)
         level = in_eights(level / eight);
-    const Bounds filling{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f, 0};
-    nodes = huge_vector(total, filling);
+    nodes.resize(total);
     parallel_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g)
             nodes[g] = make_group(pieces, g, triangles[g]);
     });
     // The nodes of a level stand at its begin, `count` of them.
     std::size_t first = 0, count = triangles.size();
+    const auto fill_up = [&] {
+        const Bounds filling{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f, 0};
+        std::fill_n(nodes.begin() + static_cast<std::ptrdiff_t>(first + count), in_eights(count) - count,
+                    filling);
+    };
+    fill_up();
     leaves = static_cast<std::uint32_t>(in_eights(count));
     while (count > eight) {
         const std::size_t next = first + in_eights(count), parents = in_eights(count) / eight;
@@ -248,6 +254,7 @@ TriangleTree::TriangleTree(const GroupedPieces& pieces) {
         });
         first = next;
         count = parents;
+        fill_up();
     }
 }
 

@@ -36,9 +36,9 @@ struct alignas(16) Bounds {
 /// Each node holds eight neighbours along the curve of its pieces, so no node is split and none is searched
 /// for a place: building is one pass a level. Const use is thread-safe.
 struct TriangleTree {
-    std::vector<TriangleGroup> triangles;
+    HugeVector<TriangleGroup> triangles;
     /// Level after level in eights, the root's last. Nodes that fill up an eight are nowhere, of a radius below 0.
-    std::vector<Bounds> nodes;
+    HugeVector<Bounds> nodes;
     std::uint32_t leaves = 0; ///< nodes before this one bound triangle groups
 
     /// \pre there is a piece

@@ -22,8 +22,8 @@ Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
 }
 
 /// Index space: voxels of the finest level.
-std::vector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Vec3d& origin, double voxel) {
-    std::vector<Vec3d> positions = huge_vector<Vec3d>(mesh.positions.size());
+HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Vec3d& origin, double voxel) {
+    HugeVector<Vec3d> positions(mesh.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
             positions[v] = ((mesh.positions[v] - frame.center) / frame.diagonal - origin) / voxel;
@@ -47,7 +47,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(box, stack.frame, plan);
-    const std::vector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
+    const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
     const TriangleTree tree = tree_of(positions, triangles);
     const WindingColumns columns(positions, triangles);
 
@@ -70,7 +70,8 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     done(0.3);
     for (int level = 0; level < plan.levels; ++level) {
         const float voxel = std::ldexp(plan.voxel, level);
-        LevelSet set = level_set(band, 1 << level, double(voxel) * stack.frame.diagonal / stack.value_unit);
+        LevelSet set = level_set(band, 1 << level, double(voxel) * stack.frame.diagonal / stack.value_unit,
+                                 level > 0 ? &stack.levels.back() : nullptr);
         set.origin = origin;
         set.voxel = voxel;
         set.outer_band = plan.outer_band;

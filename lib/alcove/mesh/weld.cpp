@@ -28,7 +28,7 @@ struct Slot {
 
 }
 
-std::vector<std::uint32_t> weld(const std::vector<Vec3d>& positions) {
+std::vector<std::uint32_t> weld(std::span<const Vec3d> positions) {
     const std::size_t count = positions.size();
     std::vector<std::uint64_t> hashes = huge_vector<std::uint64_t>(count);
     parallel_for(count, 1 << 15, [&](std::size_t begin, std::size_t end) {

@@ -3,6 +3,7 @@
 
 #include "alcove/types.h"
 
+#include <span>
 #include <vector>
 
 namespace alcove {
@@ -11,6 +12,6 @@ namespace alcove {
 ///
 /// −0 equals 0; a vertex with a coordinate that is not a number equals none. Cost: linear, about 50 ns a
 /// vertex.
-std::vector<std::uint32_t> weld(const std::vector<Vec3d>& positions);
+std::vector<std::uint32_t> weld(std::span<const Vec3d> positions);
 
 }

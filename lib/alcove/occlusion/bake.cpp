@@ -1,6 +1,5 @@
 #include "alcove/occlusion/bake.h"
 
-#include "alcove/huge_pages.h"
 #include "alcove/morton.h"
 #include "alcove/radix_sort.h"
 
@@ -13,8 +12,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     for (const Surfel& s : surfels)
         if (s.has_normal())
             box.add(Vec3d(s.position));
-    std::vector<Keyed> keys;
-    reserve_huge(keys, surfels.size());
+    HugeVector<Keyed> keys;
+    keys.reserve(surfels.size());
     constexpr double cells = 1 << (morton_bits - 1);
     const Vec3d scale = cells / glm::max(box.max - box.min, Vec3d(1e-300));
     for (std::uint32_t i = 0; i < surfels.size(); ++i)
