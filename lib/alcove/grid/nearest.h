@@ -45,9 +45,8 @@ struct BrickLimits {
     float outer, inner;
 };
 
-/// Where `nearest` holds no distance yet, and there is one within the limits. `nodes` as split() gave them for the brick.
-/// Thread-safe. Cost: 150 to 300 ns a
-/// voxel within the limits, 1 µs where ten triangles are in a voxel.
+/// Finds the distances within the limits that `nearest` does not hold yet. `nodes` as split() gave them for the brick.
+/// Thread-safe. Cost: 150 to 300 ns a voxel within the limits, 1 µs where ten triangles are in a voxel.
 void nearest_triangles(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
                        const BrickLimits& limits, NearestTriangles& nearest);
 

@@ -40,7 +40,7 @@ class GroupedPieces {
     std::size_t count() const { return begin_.size() - 1; } ///< of groups
     std::size_t begin(std::size_t group) const { return begin_[group]; }
     Piece piece(std::size_t i) const; ///< from begin() of its group to that of the next
-    /// To be called for one after the other: what they are made of lies all over memory.
+    /// Fetches what later pieces are made of, which lies all over memory: to be called with one after the other.
     void expect(std::size_t i) const;
 
   private:
