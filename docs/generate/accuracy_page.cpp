@@ -17,6 +17,7 @@
 #include <iostream>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace alcove::docs {
 namespace {
@@ -135,21 +136,24 @@ class Market {
           pilot_(mesh.surfels, mesh.rays, radius) {
         for (const float voxel : largest_voxels)
             grids_.emplace(voxel, build_grid(mesh, radius, chosen_voxel(radius, voxel)));
+        const auto add = [&](std::string_view method, int samples, float voxel) {
+            offers_.push_back(offer(choose(find_method(method), samples), voxel));
+        };
         for (int half_doublings = 2; half_doublings <= 17; ++half_doublings)
-            offers_.push_back(offer("exact", static_cast<int>(std::exp2(0.5 * half_doublings)), 0.0f));
+            add("exact", static_cast<int>(std::exp2(0.5 * half_doublings)), 0.0f);
         for (const float voxel : largest_voxels) {
             for (const int rays : {1, 2, 3, 4, 6, 8, 16, 32, 64})
-                offers_.push_back(offer("guided", rays, voxel));
+                add("guided", rays, voxel);
             for (const int probes : {10, 24})
-                offers_.push_back(offer("calibrated", probes, voxel));
+                add("calibrated", probes, voxel);
         }
     }
 
     struct Bought {
         PlannedBake bake;
-        double rmse;                 ///< true
-        double seconds;              ///< of the plan
-        const Measurement* cheapest; ///< that holds the error; null where none was offered
+        double rmse; ///< true
+        Measurement paid;
+        std::optional<Measurement> cheapest; ///< that holds the error
     };
     Bought buy(double error) const {
         PlanRequest request{.error = error,
@@ -158,29 +162,48 @@ class Market {
                             .triangles = mesh_.triangles.size(),
                             .area = surface_area(mesh_.mesh, mesh_.triangles)};
         const auto field = [&](float voxel) -> AnyField { return grids_.at(voxel).field; };
-        Bought bought{bake_planned(mesh_.surfels, mesh_.rays, field, pilot_, request), 0.0, 0.0, nullptr};
+        Bought bought{bake_planned(mesh_.surfels, mesh_.rays, field, pilot_, request), 0.0, {}, {}};
         std::vector<float> values;
         for (const std::uint32_t vertex : truth_.vertices)
             values.push_back(bought.bake.values[Channel::ao][vertex]);
         bought.rmse = compare(values, truth_.ao).rmse;
         const Plan& plan = bought.bake.plan;
-        bought.seconds = offer(plan.choice.method->name, plan.choice.samples, plan.largest_voxel).seconds();
-        for (const Measurement& m : offers_)
-            if (m.error.rmse <= error && (!bought.cheapest || m.seconds() < bought.cheapest->seconds()))
-                bought.cheapest = &m;
+        const Offer paid{plan.choice, plan.largest_voxel, {}};
+        const Offer* cheapest = nullptr;
+        for (const Offer& o : offers_)
+            if (o.measured.error.rmse <= error &&
+                (!cheapest || o.measured.seconds() < cheapest->measured.seconds()))
+                cheapest = &o;
+        // In turns once more, because the clock of the machine changes over minutes.
+        bought.paid = measured(paid);
+        if (cheapest)
+            bought.cheapest = measured(*cheapest);
+        for (int again = 0; again < 4; ++again) {
+            keep_quicker(measured(paid), bought.paid);
+            if (cheapest)
+                keep_quicker(measured(*cheapest), *bought.cheapest);
+        }
         return bought;
     }
 
   private:
-    /// The quickest of three.
-    Measurement offer(std::string_view method, int samples, float voxel) const {
-        const MethodChoice choice = choose(find_method(method), samples);
-        const MeasuredGrid* const grid = voxel > 0.0f ? &grids_.at(voxel) : nullptr;
-        Measurement best = measure(mesh_, truth_, grid, choice);
+    struct Offer {
+        MethodChoice choice;
+        float voxel;
+        Measurement measured; ///< the quickest of three
+    };
+    Offer offer(const MethodChoice& choice, float voxel) const {
+        Offer made{choice, voxel, {}};
+        made.measured = measured(made);
         for (int again = 0; again < 2; ++again)
-            best.occlusion_seconds =
-                std::min(best.occlusion_seconds, measure(mesh_, truth_, grid, choice).occlusion_seconds);
-        return best;
+            keep_quicker(measured(made), made.measured);
+        return made;
+    }
+    Measurement measured(const Offer& offer) const {
+        return measure(mesh_, truth_, offer.voxel > 0.0f ? &grids_.at(offer.voxel) : nullptr, offer.choice);
+    }
+    static void keep_quicker(const Measurement& m, Measurement& best) {
+        best.occlusion_seconds = std::min(best.occlusion_seconds, m.occlusion_seconds);
     }
 
     const MeasuredMesh& mesh_;
@@ -188,7 +211,7 @@ class Market {
     Truth truth_;
     Pilot pilot_;
     std::map<float, MeasuredGrid> grids_;
-    std::vector<Measurement> offers_;
+    std::vector<Offer> offers_;
 };
 
 std::string planning_section(const fs::path& folder) {
@@ -211,7 +234,7 @@ std::string planning_section(const fs::path& folder) {
                 last_seconds = bought.bake.plan.seconds;
                 std::string best = " | | |";
                 if (bought.cheapest) {
-                    const double ratio = bought.seconds / bought.cheapest->seconds();
+                    const double ratio = bought.paid.seconds() / bought.cheapest->seconds();
                     ++priced;
                     cheap += ratio <= 1.5;
                     best = fmt::format(" {} | {:.3g} | {:.2f} |", bought.cheapest->label(),
@@ -220,7 +243,7 @@ std::string planning_section(const fs::path& folder) {
                 rows +=
                     fmt::format("| {} | {} | {} | {} | {} | {:.4f} | {:.4f} | {:.3g} |{}\n", name,
                                 name_of(radius), error, bought.bake.plan.choice.label(), bought.bake.attempts,
-                                bought.rmse, bought.bake.rmse, bought.seconds, best);
+                                bought.rmse, bought.bake.rmse, bought.paid.seconds(), best);
             }
             std::cerr << "plans for " << name << " " << name_of(radius) << "\n";
         }
