@@ -43,7 +43,7 @@ struct HugeAllocator : std::allocator<T> {
     }
 };
 
-/// For what is written in full after it got its size.
+/// For what is written as it grows, or in full after it got its size.
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
 

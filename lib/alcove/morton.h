@@ -7,7 +7,7 @@
 
 namespace alcove {
 
-/// Cells along an axis: three numbers of so many bits are a code.
+/// Of a coordinate: a code has three times as many.
 inline constexpr int morton_bits = 21;
 
 /// The place of a cell along the curve, its coordinates' bits in turn, x first. G. M. Morton, "A computer oriented

@@ -12,8 +12,8 @@ struct Keyed {
     std::uint32_t value;
 };
 
-/// Stable, by the bits of the keys from `low` to below `high`. The work is cut in blocks whose number
-/// depends on the count alone, and spread over the threads.
+/// Stable, by the bits of the keys from `low` to below `high`, above which all are 0. The work is cut in blocks whose
+/// number depends on the count alone, and spread over the threads.
 void radix_sort(HugeVector<Keyed>& items, int low, int high);
 
 }

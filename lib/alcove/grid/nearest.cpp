@@ -170,7 +170,8 @@ class BrickSearch {
 
   private:
     // More than this are of several triangles a voxel: to choose among nodes costs less there than among triangles.
-    // Measured on a scan with 1 to 28 of them.
+    // Measured on a scan with 1 to 28 of them. Nodes that are no leaves may hold far more triangles: on the coarsest
+    // levels few hold the whole surface.
     static constexpr std::size_t few_nodes = 64;
 
     bool are_leaves(std::span<const std::uint32_t> nodes) const {

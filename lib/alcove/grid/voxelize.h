@@ -23,9 +23,10 @@ struct VoxelizeOptions {
 };
 
 /// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor
-/// its place matter. Distances are exact, to the nearest triangle; solids are where the winding number is 1 or
-/// more. A tree of the triangles is built once and searched for each level where the finer one does not know the
-/// distance, so only the first step touches every triangle. The result does not depend on the number of threads.
+/// its place matter. Distances are exact but for rounding, to the nearest triangle; solids are where the winding
+/// number is 1 or more. A tree of the triangles is built once and searched for each level where the finer one does
+/// not know the distance, so only the first step touches every triangle. The result does not depend on the number
+/// of threads.
 ///
 /// \throw InputError if no triangle has an area; LimitError as plan_levels().
 GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles,

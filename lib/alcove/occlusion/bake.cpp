@@ -7,6 +7,7 @@
 #include <tuple>
 
 namespace alcove {
+
 std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     Box box;
     for (const Surfel& s : surfels)

@@ -11,8 +11,7 @@
 namespace alcove {
 
 struct RaySurface::Scene {
-    // On large pages, where there are any, a tree is built and walked a twentieth faster.
-    RTCDevice device = rtcNewDevice("hugepages=1");
+    RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
 
     Scene() = default;

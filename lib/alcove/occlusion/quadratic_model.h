@@ -17,10 +17,9 @@ struct QuadraticModel {
 };
 
 /// Least squares over the first `count` of the values and features: over a quarter of them, but 4,096 to 16,384, evenly
-/// in runs of 64,
-/// regularised so that terms that tell the same share their weight. A. Hoerl, R. Kennard, "Ridge regression:
-/// biased estimation for nonorthogonal problems" (1970). The same whatever the number of threads. Cost: about
-/// 10 ms for eleven features and 64,000 values or more.
+/// in runs of 64, regularised so that terms that tell the same share their weight. A. Hoerl, R. Kennard, "Ridge
+/// regression: biased estimation for nonorthogonal problems" (1970). The same whatever the number of threads. Cost:
+/// about 10 ms for eleven features and 64,000 values or more.
 QuadraticModel fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
                                    std::size_t count);
 
