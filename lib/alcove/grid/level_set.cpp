@@ -37,10 +37,11 @@ std::array<float, brick_volume> known_distances(const LevelSet* finer, const Ind
         for (int x = 0; x < half; ++x)
             for (int y = 0; y < half; ++y)
                 for (int z = 0; z < half; ++z)
-                    if (const auto i = Leaf::coordToOffset(Coord(2 * x, 2 * y, 2 * z)); leaf->isValueOn(i))
-                        known[static_cast<std::size_t>(((part.x + x) * brick_size + part.y + y) * brick_size +
-                                                       part.z + z)] =
+                    if (const auto i = Leaf::coordToOffset(Coord(2 * x, 2 * y, 2 * z)); leaf->isValueOn(i)) {
+                        const int voxel = ((part.x + x) * brick_size + part.y + y) * brick_size + part.z + z;
+                        known[static_cast<std::size_t>(voxel)] =
                             static_cast<float>(std::fabs(leaf->getValue(i)) / value_scale);
+                    }
     }
     return known;
 }
