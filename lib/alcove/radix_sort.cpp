@@ -7,7 +7,8 @@
 
 namespace alcove {
 
-void radix_sort(HugeVector<Keyed>& items, int low, int high) {
+template <class Key>
+void radix_sort(HugeVector<Keyed<Key>>& items, int low, int high) {
     constexpr int most_digit_bits = 11; // a histogram stays in the first cache
     constexpr std::size_t least_block = 1 << 14, most_blocks = 16;
     using Histogram = std::array<std::uint32_t, 1 << most_digit_bits>;
@@ -16,9 +17,9 @@ void radix_sort(HugeVector<Keyed>& items, int low, int high) {
     const std::size_t digits = std::size_t{1} << digit_bits;
     const std::size_t grain = std::max(least_block, (items.size() + most_blocks - 1) / most_blocks);
     std::vector<Histogram> blocks((items.size() + grain - 1) / grain);
-    HugeVector<Keyed> other(items.size());
+    HugeVector<Keyed<Key>> other(items.size());
     for (int pass = 0; pass < passes; ++pass) {
-        const auto digit = [&](const Keyed& item) {
+        const auto digit = [&](const Keyed<Key>& item) {
             return item.key >> (low + pass * digit_bits) & (digits - 1);
         };
         parallel_for(items.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -42,5 +43,8 @@ void radix_sort(HugeVector<Keyed>& items, int low, int high) {
         items.swap(other);
     }
 }
+
+template void radix_sort(HugeVector<Keyed<std::uint32_t>>&, int, int);
+template void radix_sort(HugeVector<Keyed<std::uint64_t>>&, int, int);
 
 }

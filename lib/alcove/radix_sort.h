@@ -7,13 +7,17 @@
 
 namespace alcove {
 
+template <class Key>
 struct Keyed {
-    std::uint64_t key;
+    Key key;
     std::uint32_t value;
 };
 
 /// Stable, by the bits of the keys from `low` to below `high`, above which all are 0. The work is cut in blocks whose
 /// number depends on the count alone, and spread over the threads.
-void radix_sort(HugeVector<Keyed>& items, int low, int high);
+template <class Key>
+void radix_sort(HugeVector<Keyed<Key>>& items, int low, int high);
+extern template void radix_sort(HugeVector<Keyed<std::uint32_t>>&, int, int);
+extern template void radix_sort(HugeVector<Keyed<std::uint64_t>>&, int, int);
 
 }

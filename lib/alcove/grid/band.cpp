@@ -3,6 +3,7 @@
 #include "alcove/parallel.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -82,24 +83,28 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
                       nearest);
 
     BandBrick brick;
-    for (int x = 0; x < brick_size; ++x) {
-        brick.active[x] = 0;
-        for (int i = 0; i < brick_size * brick_size; ++i) {
-            const int voxel = x * brick_size * brick_size + i;
-            const float distance = std::sqrt(nearest.distance2[voxel]) / units;
-            bool negative =
-                (inside[static_cast<std::size_t>(voxel / brick_size)] >> voxel % brick_size & 1) != 0;
-            const bool active = distance <= (negative ? width_.inner : width_.outer);
-            if (normals_ && distance < sheet_thickness) {
-                const Index3 p = stride * (block.low + Index3(x, i / brick_size, i % brick_size));
-                negative = normals_->side(nearest.triangle[voxel], Vec3d(p)) < 0.0;
-            }
-            brick.active[x] |= std::uint64_t{active} << i;
-            brick.count += active;
-            const float value = active ? distance : negative ? width_.inner : width_.outer;
-            brick.values[voxel] = negative ? -value : value;
+    for (std::size_t row = 0; row < brick_rows; ++row) {
+        const std::size_t first = row * brick_size;
+        float distances[brick_size];
+        for (std::size_t z = 0; z < brick_size; ++z)
+            distances[z] = std::sqrt(nearest.distance2[first + z]) / units;
+        unsigned active = 0;
+        for (std::size_t z = 0; z < brick_size; ++z) {
+            const float width = (inside[row] >> z & 1) != 0 ? -width_.inner : width_.outer;
+            active |= unsigned{distances[z] <= std::fabs(width)} << z;
+            brick.values[first + z] = std::copysign(std::min(distances[z], std::fabs(width)), width);
         }
+        brick.active[row / brick_size] |= std::uint64_t{active} << row % brick_size * brick_size;
+        brick.count += static_cast<std::size_t>(std::popcount(active));
     }
+    for (std::size_t voxel = 0; normals_ && voxel < brick_volume; ++voxel)
+        if (float& distance = brick.values[voxel]; distance < sheet_thickness) {
+            const auto i = static_cast<int>(voxel);
+            const Index3 p = stride * (block.low + Index3(i / (brick_size * brick_size),
+                                                          i / brick_size % brick_size, i % brick_size));
+            if (normals_->side(nearest.triangle[voxel], Vec3d(p)) < 0.0)
+                distance = -distance;
+        }
     return brick;
 }
 

@@ -32,8 +32,8 @@ struct BandBlock {
 /// Signed distances in voxels, z fastest; ±the width where a voxel is not of the band.
 struct BandBrick {
     float values[brick_volume];
-    std::uint64_t active[brick_size]; ///< a word an x-slice, a bit a voxel of the band
-    std::size_t count = 0;            ///< voxels of the band
+    std::uint64_t active[brick_size] = {}; ///< a word an x-slice, a bit a voxel of the band
+    std::size_t count = 0;                 ///< voxels of the band
 };
 
 /// Distances are exact and no brick depends on another, so all of them can be made at once and levels of any

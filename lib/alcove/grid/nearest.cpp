@@ -56,7 +56,7 @@ struct NearestOfEight {
         }
     }
 
-  private:
+    /// Likewise, for one of the voxels.
     HWY_INLINE void take_for(int voxel, const TriangleGroup& g, const EightPoints& voxels) {
         const Vec3v p = voxels.one(g.origin, voxel);
         for (int lane = 0; lane < eight; lane += lanes) {
@@ -79,24 +79,88 @@ void take_wanted(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
                     [&](std::uint32_t node) HWY_ATTR { return first.has(node) ? 0 : wanting(node); }));
 }
 
-/// Takes what of some nodes is nearest to eight voxels.
-void take_nearest(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const EightPoints& voxels,
-                  Sieve& sieve, NearestOfEight& best) {
-    const auto wanting = [&](std::uint32_t node) HWY_ATTR {
+/// Looks for what is nearest to eight voxels in the leaves below some nodes, the most promising first.
+class LeafSearch {
+  public:
+    void take_nearest(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
+                      const EightPoints& voxels, Sieve& sieve, NearestOfEight& best) {
+        for (int lane = 0; lane < eight; lane += lanes)
+            store(voxels.from(Index3(0), lane), voxels_, lane);
+        limit_by_points(tree, nodes);
+        constexpr float any = -1.0f; // radius: down to the leaves
+        const auto leaves = sieve.sift(tree, nodes, any, [&](std::uint32_t node) HWY_ATTR {
+            return wanting(tree.nodes[node], best, sieve.shares().all().size());
+        });
+        if (leaves.empty())
+            return;
+        const auto group = [&](std::size_t leaf) -> const TriangleGroup& {
+            return tree.triangles[tree.nodes[leaves[leaf].what].child];
+        };
+        find_nearest(leaves.size());
+        for (int i = 0; i < eight; ++i)
+            if (float& least2 = rows_[nearest_[i]].least2[i]; least2 <= best.distance2[i]) {
+                best.take_for(i, group(nearest_[i]), voxels);
+                least2 = std::numeric_limits<float>::infinity(); // for that one it is done
+            }
+        for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+            if (const std::uint32_t bits = wanting(best, leaf); bits != 0)
+                best.take(group(leaf), bits, voxels);
+    }
+
+  private:
+    struct Row {
+        alignas(4 * eight) float least2[eight];
+    };
+
+    void limit_by_points(const TriangleTree& tree, std::span<const std::uint32_t> nodes) {
+        for (int lane = 0; lane < eight; lane += lanes) {
+            const Vec3v at = load(voxels_, lane);
+            V least = hn::Set(d, std::numeric_limits<float>::infinity());
+            for (const std::uint32_t node : nodes)
+                least = hn::Min(least, length2(minus(at, everywhere(tree.nodes[node].point))));
+            hn::Store(least, d, points_ + lane);
+        }
+    }
+
+    HWY_INLINE std::uint32_t wanting(const Bounds& bounds, const NearestOfEight& best, std::size_t row) {
+        if (row >= rows_.size())
+            rows_.resize(2 * row + eight);
+        for (int lane = 0; lane < eight; lane += lanes)
+            hn::Store(distance2(bounds, load(voxels_, lane)), d, rows_[row].least2 + lane);
+        return wanting(best, row);
+    }
+
+    HWY_INLINE std::uint32_t wanting(const NearestOfEight& best, std::size_t row) const {
         std::uint32_t bits = 0;
         for (int lane = 0; lane < eight; lane += lanes) {
-            const V least = length2(way_from(tree.nodes[node], voxels.from(Index3(0), lane)));
-            bits |= bits_of(hn::Le(least, hn::Mul(hn::Load(d, best.distance2 + lane), hn::Set(d, slack))))
-                    << lane;
+            const V limit = hn::Min(hn::Load(d, best.distance2 + lane), hn::Load(d, points_ + lane));
+            const V least = hn::Load(d, rows_[row].least2 + lane);
+            bits |= bits_of(hn::Le(least, hn::Mul(limit, hn::Set(d, slack)))) << lane;
         }
         return bits;
-    };
-    const auto take = [&](std::span<const Shares::Share> shares) HWY_ATTR {
-        for (const auto& [node, bits] : shares)
-            best.take(tree.triangles[tree.nodes[node].child], bits, voxels);
-    };
-    take_wanted(tree, nodes, NearestNodes(tree, nodes, voxels), sieve, wanting, take);
-}
+    }
+
+    /// Of each voxel, the leaf that is the least away.
+    void find_nearest(std::size_t count) {
+        for (int lane = 0; lane < eight; lane += lanes) {
+            V least = hn::Set(d, std::numeric_limits<float>::infinity());
+            auto nearest = hn::Zero(du);
+            for (std::size_t leaf = 0; leaf < count; ++leaf) {
+                const V found = hn::Load(d, rows_[leaf].least2 + lane);
+                const M nearer = hn::Lt(found, least);
+                least = hn::IfThenElse(nearer, found, least);
+                nearest = hn::IfThenElse(hn::RebindMask(du, nearer),
+                                         hn::Set(du, static_cast<std::uint32_t>(leaf)), nearest);
+            }
+            hn::Store(nearest, du, nearest_ + lane);
+        }
+    }
+
+    alignas(64) float voxels_[3][eight];
+    alignas(64) float points_[eight]; // squared distances of the nearest points that are known of the surface
+    std::vector<Row> rows_;           // a leaf each: squared distances that it has at least
+    alignas(64) std::uint32_t nearest_[eight]; // rows
+};
 
 /// The centres of the octants, themselves voxels where the block is of 2³.
 EightPoints octants_of(const Block& block) {
@@ -153,7 +217,7 @@ class BrickSearch {
         const Block block{brick_.low + low, size, brick_.stride};
         if (size == 2) {
             NearestOfEight best(reach_of(low, size), needed(low));
-            take_nearest(tree_, nodes, octants_of(block), sieve_, best);
+            leaves_.take_nearest(tree_, nodes, octants_of(block), sieve_, best);
             return keep(best, low);
         }
         float reach[eight];
@@ -258,6 +322,7 @@ class BrickSearch {
     std::array<std::uint8_t, brick_rows> known_;    // a bit a voxel, as limits_.rows
     std::array<std::array<Nodes, eight>, 2> parts_; // of blocks of 4³ and of the brick
     Sieve sieve_;
+    LeafSearch leaves_;
     Shares triangles_;
     std::array<Nodes, eight> wanted_; // triangles: eight times the group, plus the slot
 };

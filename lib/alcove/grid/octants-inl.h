@@ -40,6 +40,16 @@ HWY_INLINE Vec3v way_from(const Bounds& b, const Vec3v& p) {
     return less(times(hn::Div(beside, across), aside), hn::Neg(hn::CopySign(beyond, height)), axis);
 }
 
+/// Squared distances of points from that cylinder. Without the ways, which take a division.
+HWY_INLINE V distance2(const Bounds& b, const Vec3v& p) {
+    const Vec3v from_centre = minus(p, everywhere(b.centre));
+    const V height = dot(from_centre, everywhere(b.axis));
+    const V across2 = hn::Max(hn::NegMulAdd(height, height, length2(from_centre)), hn::Zero(d));
+    const V beyond = hn::Max(hn::Sub(hn::Abs(height), hn::Set(d, b.thickness)), hn::Zero(d));
+    const V beside = hn::Max(hn::Sub(hn::Sqrt(across2), hn::Set(d, b.radius)), hn::Zero(d));
+    return hn::MulAdd(beyond, beyond, hn::Mul(beside, beside));
+}
+
 /// The corners of a cube, x slowest: half of `twice` is the first, half of `twice_apart` the side.
 struct EightPoints {
     Index3 twice;
@@ -124,7 +134,9 @@ class Octants {
                 way_[axis][i] = tree.nodes[nearest.node[i]].point[axis];
         }
         for (int lane = 0; lane < eight; lane += lanes) {
-            store(minus(centres.from(Index3(0), lane), load(way_, lane)), way_, lane);
+            const Vec3v at = centres.from(Index3(0), lane);
+            store(at, at_, lane);
+            store(minus(at, load(way_, lane)), way_, lane);
             hn::Store(hn::Load(d, nearest.distance2 + lane), d, distance2_ + lane);
         }
     }
@@ -133,7 +145,7 @@ class Octants {
     HWY_INLINE std::uint32_t wanting(const Bounds& bounds) const {
         std::uint32_t wanted = 0;
         for (int lane = 0; lane < eight; lane += lanes)
-            wanted |= wanting(way_from(bounds, centres_.from(Index3(0), lane)), lane) << lane;
+            wanted |= wanting(way_from(bounds, load(at_, lane)), lane) << lane;
         return wanted;
     }
 
@@ -163,6 +175,7 @@ class Octants {
             hn::Le(length2(way), hn::Min(hn::Mul(limit, hn::Set(d, slack)), hn::Load(d, most_ + lane))));
     }
 
+    alignas(64) float at_[3][eight];     // the centres
     alignas(64) float distance2_[eight]; // to the nearest known points
     alignas(64) float way_[3][eight];    // from these
     alignas(64) float most_[eight];

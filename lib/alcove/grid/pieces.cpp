@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t grain = 4096; // triangles
 constexpr double cells_per_voxel = 4.0;
-constexpr double most_cells = (1 << 21) - 1; // along an axis: three times 21 bits are a key
+constexpr double most_cells = (1 << 10) - 1; // along an axis: three times 10 bits are a key
 
 double length2(const Vec3d& v) {
     return glm::dot(v, v);
@@ -22,7 +22,7 @@ double longest2(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return std::max({length2(b - a), length2(c - b), length2(a - c)});
 }
 
-/// Calls `visit(corners)` for each piece of a triangle, corner 0 opposite to the longest side.
+/// Calls `visit(corners)` for each piece of a triangle.
 template <class Visit>
 void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, Visit&& visit) {
     const double ab = length2(b - a), bc = length2(c - b), ca = length2(a - c);
@@ -39,20 +39,24 @@ bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return length2(glm::cross(b - a, c - a)) > 0.0;
 }
 
-/// Halves a range of the curve, always between octants or cells, until groups are small enough.
-void group(std::span<const Keyed> order, std::uint32_t begin, std::uint32_t end,
+/// Halves a range of the curve, always between octants or cells, until groups are small enough. A few that are near one
+/// another are filled whatever the octants: half-empty ones would be more to build, and to look through.
+void group(std::span<const PieceKey> order, std::uint32_t begin, std::uint32_t end,
            HugeVector<std::uint32_t>& out) {
-    if (end - begin <= GroupedPieces::largest_group) {
-        out.push_back(end);
-        return;
+    // Measured with 1 to 28 pieces a voxel. The cube is of 64 cells along a side.
+    constexpr std::uint32_t largest = GroupedPieces::largest_group, few = 4 * largest, cube = 1 << 3 * 6;
+    const std::uint32_t differing = order[begin].key ^ order[end - 1].key;
+    if (end - begin <= largest || (end - begin <= few && differing < cube)) {
+        for (; end - begin > largest; begin += largest)
+            out.push_back(begin + largest);
+        return out.push_back(end);
     }
-    const std::uint64_t differing = order[begin].key ^ order[end - 1].key;
     std::uint32_t middle = begin + (end - begin) / 2; // of pieces in one and the same cell
     if (differing != 0) {
-        const std::uint64_t bit = std::bit_floor(differing);
+        const std::uint32_t bit = std::bit_floor(differing);
         const auto part = order.subspan(begin, end - begin);
-        const auto upper = std::partition_point(part.begin(), part.end(),
-                                                [&](const Keyed& piece) { return (piece.key & bit) == 0; });
+        const auto upper = std::partition_point(
+            part.begin(), part.end(), [&](const PieceKey& piece) { return (piece.key & bit) == 0; });
         middle = begin + static_cast<std::uint32_t>(upper - part.begin());
     }
     group(order, begin, middle, out);
@@ -78,8 +82,8 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
 
     // Most triangles are one piece, which is made when it is asked for; those of the others are kept.
     struct Cut {
-        std::vector<Keyed> whole; // by triangle
-        std::vector<Keyed> parts; // by index below
+        std::vector<PieceKey> whole; // by triangle
+        std::vector<PieceKey> parts; // by index below
         std::vector<Piece> pieces;
     };
     std::vector<Cut> blocks((triangles.size() + grain - 1) / grain);
@@ -90,7 +94,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
             const Vec3d &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
                         &c = positions[triangles[t][2]];
             const auto key = [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
-                return morton_code(scale / 3.0 * (p + q + r));
+                return static_cast<std::uint32_t>(morton_code(scale / 3.0 * (p + q + r)));
             };
             if (!has_area(a, b, c))
                 continue;
@@ -110,7 +114,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
     order_.reserve(count);
     for (const Cut& block : blocks) {
         order_.insert(order_.end(), block.whole.begin(), block.whole.end());
-        for (const Keyed& part : block.parts)
+        for (const PieceKey& part : block.parts)
             order_.push_back(
                 {part.key, static_cast<std::uint32_t>(triangles.size() + parts_.size() + part.value)});
         parts_.insert(parts_.end(), block.pieces.begin(), block.pieces.end());
@@ -138,10 +142,7 @@ Piece GroupedPieces::piece(std::size_t i) const {
     if (value >= triangles_.size())
         return parts_[value - triangles_.size()];
     const Triangle& t = triangles_[value];
-    Piece whole;
-    cut(positions_[t[0]], positions_[t[1]], positions_[t[2]],
-        [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) { whole = piece_of(a, b, c, value); });
-    return whole;
+    return piece_of(positions_[t[0]], positions_[t[1]], positions_[t[2]], value);
 }
 
 }

@@ -78,9 +78,9 @@ void for_each_covered(const Corner& p, const Corner& q, const Corner& r, std::in
 
 WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
     double extent = 1.0;
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t)
-            extent = std::max({extent, positions[v].x, positions[v].y});
+    for (const Vec3d& p : positions)
+        if (const double most = std::max(p.x, p.y); std::isfinite(most))
+            extent = std::max(extent, most);
     // Products of two differences, doubled, stay below 2^63.
     const int shift = 29 - std::ilogb(extent);
     const double scale = std::ldexp(1.0, shift);
@@ -183,6 +183,19 @@ void WindingColumns::for_each_crossing(const std::function<void(std::uint32_t, b
     });
 }
 
+/// The first crossing of the column, or of those behind it: few before it are looked at where it is near.
+std::vector<WindingColumns::Crossing>::const_iterator
+WindingColumns::column_from(std::vector<Crossing>::const_iterator begin,
+                            std::vector<Crossing>::const_iterator end, std::uint32_t y) {
+    std::ptrdiff_t step = 4;
+    while (step < end - begin && begin[step].y < y) {
+        begin += step;
+        step *= 2;
+    }
+    return std::lower_bound(begin, begin + std::min(step, end - begin), y,
+                            [](const Crossing& c, std::uint32_t v) { return c.y < v; });
+}
+
 std::array<std::uint8_t, brick_rows> WindingColumns::inside(const Block& brick) const {
     std::array<std::uint8_t, brick_rows> rows{};
     for (int i = 0; i < brick_size; ++i) {
@@ -193,7 +206,7 @@ std::array<std::uint8_t, brick_rows> WindingColumns::inside(const Block& brick) 
         auto at = crossings_.begin() + static_cast<std::ptrdiff_t>(row_begin_[x]);
         for (int j = 0; j < brick_size; ++j) {
             const auto y = static_cast<std::uint32_t>((brick.low.y + j) * brick.stride);
-            at = std::lower_bound(at, row_end, y, [](const Crossing& c, std::uint32_t v) { return c.y < v; });
+            at = column_from(at, row_end, y);
             int above = 0;
             for (auto c = at; c != row_end && c->y == y; ++c)
                 above -= c->turn;

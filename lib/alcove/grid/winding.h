@@ -45,6 +45,9 @@ class WindingColumns {
     };
     template <class Visit>
     void for_each_column(Visit&& visit) const;
+    static std::vector<Crossing>::const_iterator column_from(std::vector<Crossing>::const_iterator begin,
+                                                             std::vector<Crossing>::const_iterator end,
+                                                             std::uint32_t y);
 
     std::vector<std::size_t> row_begin_; // of each x in crossings_
     std::vector<Crossing> crossings_;    // by x, y, z

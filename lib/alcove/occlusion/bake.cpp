@@ -13,7 +13,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     for (const Surfel& s : surfels)
         if (s.has_normal())
             box.add(Vec3d(s.position));
-    HugeVector<Keyed> keys;
+    using Code = Keyed<std::uint64_t>;
+    HugeVector<Code> keys;
     keys.reserve(surfels.size());
     constexpr double cells = 1 << (morton_bits - 1);
     const Vec3d scale = cells / glm::max(box.max - box.min, Vec3d(1e-300));
@@ -24,20 +25,20 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     // list may not matter.
     constexpr int code_bits = 3 * morton_bits, sorted_by_radix = 33;
     radix_sort(keys, code_bits - sorted_by_radix, code_bits);
-    const auto tuple = [&](const Keyed& key) {
+    const auto tuple = [&](const Code& key) {
         const Surfel& s = surfels[key.value];
         return std::tuple(s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
                           key.value);
     };
-    const auto upper = [&](const Keyed& key) { return key.key >> (code_bits - sorted_by_radix); };
+    const auto upper = [&](const Code& key) { return key.key >> (code_bits - sorted_by_radix); };
     for (auto begin = keys.begin(), end = begin; begin != keys.end(); begin = end) {
-        end = std::find_if(begin, keys.end(), [&](const Keyed& key) { return upper(key) != upper(*begin); });
-        std::sort(begin, end, [&](const Keyed& a, const Keyed& b) {
+        end = std::find_if(begin, keys.end(), [&](const Code& key) { return upper(key) != upper(*begin); });
+        std::sort(begin, end, [&](const Code& a, const Code& b) {
             return a.key != b.key ? a.key < b.key : tuple(a) < tuple(b);
         });
     }
     std::vector<std::uint32_t> order(keys.size());
-    std::transform(keys.begin(), keys.end(), order.begin(), [](const Keyed& k) { return k.value; });
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const Code& k) { return k.value; });
     return order;
 }
 
