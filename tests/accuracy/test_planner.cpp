@@ -56,6 +56,16 @@ TEST_F(Planning, ProbesWhereAGridIsThereOrMeshesAreLarge) {
     EXPECT_GT(plan.largest_voxel, 0.0f);
 }
 
+TEST_F(Planning, TakesNoGridThatDoesNotFit) {
+    PlanRequest wanted = request(0.05);
+    wanted.surfels = 100'000'000; // grids would be by far the cheapest
+    EXPECT_GT(Planner(wanted, pilot_).next().largest_voxel, 0.0f);
+    wanted.finest_voxel = INFINITY;
+    EXPECT_EQ(Planner(wanted, pilot_).next().choice.method->name, "exact");
+    wanted.finest_voxel = 1.0 / 100.0;
+    EXPECT_EQ(Planner(wanted, pilot_).next().largest_voxel, 1.0f / 64.0f);
+}
+
 TEST_F(Planning, ChoosesCountsOfRaysBetweenThoseOfTheTable) {
     std::set<double> rays, of_table;
     for (const plan_table::Row& row : plan_table::rows)

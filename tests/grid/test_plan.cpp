@@ -59,6 +59,15 @@ TEST(Plan, AnAutomaticVoxelIsCoarsenedUntilItFits) {
     EXPECT_LE(tight.bytes, roomy.bytes / 4);
 }
 
+TEST(Plan, TrianglesThatDoNotFitAreRefused) {
+    const Mesh mesh = test::sphere_mesh(3);
+    const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    const GridOptions tiny{.memory_limit = 100.0 * static_cast<double>(triangles.size())};
+    EXPECT_EQ(finest_voxel(surface_area(mesh, triangles), triangles.size(), tiny), INFINITY);
+    EXPECT_THROW(plan(mesh, tiny), LimitError);
+    EXPECT_THROW(plan(mesh, {.voxel = 0.5f, .memory_limit = tiny.memory_limit}), LimitError);
+}
+
 /// What is promised before allocation holds for what is allocated: grids and bricks fit the estimate, and it
 /// is not many times too high.
 TEST(Plan, TheEstimateCoversTheGrids) {

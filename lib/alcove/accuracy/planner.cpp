@@ -51,7 +51,10 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
         return at_radius(row.error_per_deviation, request.radius) * pilot.deviation();
     };
     const auto add = [&](const plan_table::Row& row, int samples, double rmse) {
-        if (request.has_grid && row.largest_voxel != GridOptions{}.largest_voxel)
+        const bool there = request.has_grid
+                               ? row.largest_voxel == GridOptions{}.largest_voxel
+                               : chosen_voxel(request.radius, row.largest_voxel) >= request.finest_voxel;
+        if (!there)
             return;
         const MethodChoice choice = choose(find_method(row.method), samples);
         if (!(request.wanted & Exact::gives).without(choice.method->gives).empty())

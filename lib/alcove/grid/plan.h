@@ -36,10 +36,14 @@ double surface_area(const Mesh& mesh, std::span<const Triangle> triangles);
 /// The finest voxel that is taken where none is asked for, unit space, unless memory asks for a larger one.
 float chosen_voxel(float radius, float largest_voxel);
 
+/// The finest voxel whose grids and what builds them fit the memory limit, unit space; infinite where the triangles alone
+/// do not. `area` as surface_area() has it.
+double finest_voxel(double area, std::size_t triangles, const GridOptions& options);
+
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
 /// from area / voxel². A voxel of 0 is coarsened until it fits.
 /// \throw LimitError if a voxel that was asked for needs more than the limit or more than 2^20 voxels along
-/// the diagonal, naming the finest voxel that fits.
+/// the diagonal, naming the finest voxel that fits; if none does.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
 
 }
