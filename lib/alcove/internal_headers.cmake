@@ -5,6 +5,7 @@ set(alcove_internal_headers
     accuracy/counting_field.h
     atomic_file.h
     grid/band.h
+    grid/leaf_search-inl.h
     grid/level_set.h
     grid/lanes-inl.h
     grid/nearest.h

@@ -43,7 +43,7 @@ FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
         fail("is a device, not a file; name a mesh file");
 
     std::size_t capacity = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 1u << 16;
-    bytes_ = std::make_unique_for_overwrite<char[]>(capacity + 1);
+    bytes_.reset(new char[capacity + 1]);
     prefer_huge_pages(bytes_.get(), capacity + 1);
     for (;;) {
         if (size_ == capacity) {
@@ -52,7 +52,7 @@ FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
             if (got == 0)
                 break;
             if (got > 0) {
-                auto larger = std::make_unique_for_overwrite<char[]>(capacity * 2 + 2);
+                std::shared_ptr<char[]> larger(new char[capacity * 2 + 2]);
                 std::memcpy(larger.get(), bytes_.get(), size_);
                 bytes_ = std::move(larger);
                 capacity = capacity * 2 + 1;
@@ -75,7 +75,7 @@ FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
 }
 
 FileBytes::FileBytes(const std::filesystem::path& file, std::string_view bytes)
-    : path_(file), bytes_(std::make_unique_for_overwrite<char[]>(bytes.size() + 1)), size_(bytes.size()) {
+    : path_(file), bytes_(new char[bytes.size() + 1]), size_(bytes.size()) {
     std::copy(bytes.begin(), bytes.end(), bytes_.get());
     bytes_[size_] = '\0';
 }

@@ -22,6 +22,8 @@ class FileBytes {
     const char* end() const { return bytes_.get() + size_; } ///< a readable zero byte follows the last one
     std::size_t size() const { return size_; }
     std::string_view view() const { return {begin(), size_}; }
+    /// The bytes live at least as long as this, and longer where what it returns does.
+    std::shared_ptr<const void> keeper() const { return bytes_; }
 
     /// \throw InputError "file: message".
     [[noreturn]] void fail(std::string_view message) const;
@@ -32,7 +34,7 @@ class FileBytes {
 
   private:
     std::filesystem::path path_;
-    std::unique_ptr<char[]> bytes_;
+    std::shared_ptr<char[]> bytes_;
     std::size_t size_ = 0;
 };
 

@@ -1,14 +1,9 @@
 #include "alcove/mesh/mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace alcove {
-
-bool is_finite(const Vec3d& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 void Mesh::add_face(std::span<const std::uint32_t> vertices) {
     corners.insert(corners.end(), vertices.begin(), vertices.end());

@@ -3,6 +3,7 @@
 
 #include "alcove/types.h"
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -53,6 +54,8 @@ struct Mesh {
     const Attribute* find_attribute(std::string_view name) const;
 };
 
-bool is_finite(const Vec3d& p);
+inline bool is_finite(const Vec3d& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 }

@@ -49,7 +49,7 @@ void add_color_properties(PlyElement& element) {
 }
 
 PlyElement vertex_element(const Mesh& mesh) {
-    PlyElement element{"vertex", mesh.vertex_count(), {}, {}};
+    PlyElement element{"vertex", mesh.vertex_count(), {}};
     const bool wide = needs_double(mesh);
     for (const char* name : {"x", "y", "z"})
         element.properties.push_back({name, wide ? PlyType::float64 : PlyType::float32, {}});
@@ -62,8 +62,8 @@ PlyElement vertex_element(const Mesh& mesh) {
     if (!mesh.vertex_colors.empty())
         add_color_properties(element);
 
-    element.rows.resize(element.count * element.smallest_row());
-    std::byte* to = element.rows.data();
+    std::vector<std::byte> rows(element.count * element.smallest_row());
+    std::byte* to = rows.data();
     for (std::size_t v = 0; v < element.count; ++v) {
         to = wide ? store(to, mesh.positions[v]) : store(to, Vec3(mesh.positions[v]));
         if (!mesh.normals.empty())
@@ -73,6 +73,7 @@ PlyElement vertex_element(const Mesh& mesh) {
         if (!mesh.vertex_colors.empty())
             to = store(to, mesh.vertex_colors[v]);
     }
+    element.keep(std::move(rows));
     return element;
 }
 
@@ -86,16 +87,17 @@ PlyElement face_element(const Mesh& mesh) {
     const PlyType uv_count_type = 2 * most_corners <= 255 ? PlyType::uint8 : PlyType::int32;
     const bool large = mesh.vertex_count() > 0x7fffffffu;
 
-    PlyElement element{"face", mesh.face_count(), {}, {}};
+    PlyElement element{"face", mesh.face_count(), {}};
     element.properties.push_back({"vertex_indices", large ? PlyType::uint32 : PlyType::int32, count_type});
     if (has_uvs)
         element.properties.push_back({"texcoord", PlyType::float32, uv_count_type});
     if (has_colors)
         add_color_properties(element);
 
-    element.rows.resize(element.count * element.smallest_row() + mesh.corners.size() * sizeof(std::uint32_t) +
-                        mesh.corner_uvs.size() * sizeof(Vec2));
-    std::byte* to = element.rows.data();
+    std::vector<std::byte> rows(element.count * element.smallest_row() +
+                                mesh.corners.size() * sizeof(std::uint32_t) +
+                                mesh.corner_uvs.size() * sizeof(Vec2));
+    std::byte* to = rows.data();
     for (std::size_t f = 0; f < element.count; ++f) {
         const auto face = mesh.face(f);
         to = store_count(to, face.size(), count_type);
@@ -109,6 +111,7 @@ PlyElement face_element(const Mesh& mesh) {
         if (has_colors)
             to = store(to, mesh.face_colors[f]);
     }
+    element.keep(std::move(rows));
     return element;
 }
 
@@ -123,6 +126,12 @@ std::optional<PlyType> ply_type_named(std::string_view name) {
         if (name == types[i].name || name == types[i].sized_name)
             return static_cast<PlyType>(i);
     return {};
+}
+
+void PlyElement::keep(std::vector<std::byte> made) {
+    const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(made));
+    rows = *kept;
+    keeper = kept;
 }
 
 const PlyProperty* PlyElement::find(std::string_view property) const {

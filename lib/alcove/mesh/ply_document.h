@@ -8,7 +8,9 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,7 +76,10 @@ struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
-    std::vector<std::byte> rows; ///< all rows one after another, packed, little endian
+    std::span<const std::byte> rows{};    ///< all of them one after another, packed, little endian
+    std::shared_ptr<const void> keeper{}; ///< of their memory
+
+    void keep(std::vector<std::byte> made); ///< as the rows
 
     const PlyProperty* find(std::string_view property) const;
     bool has_lists() const;

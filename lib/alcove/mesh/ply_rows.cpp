@@ -24,18 +24,24 @@ class RowBuffer {
         return block_.data() + used_ - bytes;
     }
     void end_row() { ++ended_; }
-    void flush() {
-        // The first rows foretell the room for all, give or take some corners: growing would copy them.
-        if (element_.rows.empty() && ended_ > 0)
-            reserve_huge(element_.rows, std::min(most_, used_ * element_.count / ended_ * 9 / 8));
-        element_.rows.insert(element_.rows.end(), block_.begin(),
-                             block_.begin() + static_cast<std::ptrdiff_t>(used_));
-        used_ = 0;
+    /// Gives all of them to the element.
+    void finish() {
+        flush();
+        element_.keep(std::move(rows_));
     }
 
   private:
+    void flush() {
+        // The first rows foretell the room for all, give or take some corners: growing would copy them.
+        if (rows_.empty() && ended_ > 0)
+            reserve_huge(rows_, std::min(most_, used_ * element_.count / ended_ * 9 / 8));
+        rows_.insert(rows_.end(), block_.begin(), block_.begin() + static_cast<std::ptrdiff_t>(used_));
+        used_ = 0;
+    }
+
     PlyElement& element_;
     std::size_t most_;
+    std::vector<std::byte> rows_;
     std::array<std::byte, 1 << 16> block_;
     std::size_t used_ = 0, ended_ = 0;
 };
@@ -66,7 +72,7 @@ class TextRows {
                            " has properties; export the file again");
             rows.end_row();
         }
-        rows.flush();
+        rows.finish();
     }
 
     const char* at() const { return text_.at(); }
@@ -139,9 +145,8 @@ class BinaryRows {
                                         grouped(bytes_left()) +
                                         " bytes follow; copy or export the file again");
         const char* const end = element.has_lists() ? end_of_rows(element) : at_ + element.count * smallest;
-        const auto* const bytes = reinterpret_cast<const std::byte*>(at_);
-        reserve_huge(element.rows, static_cast<std::size_t>(end - at_));
-        element.rows.assign(bytes, bytes + (end - at_));
+        element.rows = std::as_bytes(std::span(at_, end));
+        element.keeper = file_.keeper();
         at_ = end;
         if (swapped_)
             swap_rows(element);
@@ -184,7 +189,8 @@ class BinaryRows {
     }
 
     static void swap_rows(PlyElement& element) {
-        std::byte* at = element.rows.data();
+        std::vector<std::byte> rows(element.rows.begin(), element.rows.end());
+        std::byte* at = rows.data();
         const auto swap_value = [&at](std::size_t size) {
             std::reverse(at, at + size);
             at += size;
@@ -199,6 +205,7 @@ class BinaryRows {
                 for (; items > 0; --items)
                     swap_value(size_of(property.type));
             }
+        element.keep(std::move(rows));
     }
 
     const FileBytes& file_;

@@ -85,6 +85,7 @@ void RaySurface::find_occluded(RayBatch& rays, float far) const {
 
 void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, const Outputs& out) const {
     const CosineLattice lattice(rays);
+    float* bent = out[Channel::bent_normal];
     std::array<int, SurfelBatch::capacity> open{};
     std::array<Vec3, SurfelBatch::capacity> mean{};
     RayBatch batch;
@@ -92,10 +93,10 @@ void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, co
     const auto flush = [&] {
         surface.find_occluded(batch, radius);
         for (std::size_t r = 0; r < batch.count; ++r)
-            if (!batch.hit[r]) {
-                ++open[owner[r]];
+            open[owner[r]] += !batch.hit[r];
+        for (std::size_t r = 0; bent != nullptr && r < batch.count; ++r)
+            if (!batch.hit[r])
                 mean[owner[r]] += Vec3(batch.dx[r], batch.dy[r], batch.dz[r]);
-            }
         batch.count = 0;
     };
     for (std::size_t i = 0; i < surfels.count; ++i) {
@@ -112,7 +113,7 @@ void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, co
     flush();
     for (std::size_t i = 0; i < surfels.count; ++i)
         out[Channel::ao][i] = static_cast<float>(open[i]) / static_cast<float>(rays);
-    if (float* bent = out[Channel::bent_normal])
+    if (bent != nullptr)
         for (std::size_t i = 0; i < surfels.count; ++i) {
             const float length = glm::length(mean[i]);
             const Vec3 direction = length > 0.0f ? mean[i] / length : Vec3(0.0f);
