@@ -7,6 +7,7 @@
 #include "alcove/grid/vdb.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/occlusion/bake.h"
+#include "dense_array.h"
 #include "scan.h"
 
 #include <nanovdb/util/OpenToNanoVDB.h>
@@ -64,18 +65,8 @@ void probe_all(benchmark::State& state, const Sample& sample) {
 }
 
 void dense_array(benchmark::State& state) {
-    constexpr int n = 128;
-    static const std::vector<float> dense(static_cast<std::size_t>(n) * n * n, 1.0f);
-    probe_all(state, [&](const Vec3& p) {
-        const int x = static_cast<int>(p.x), y = static_cast<int>(p.y), z = static_cast<int>(p.z);
-        const float tx = p.x - static_cast<float>(x), ty = p.y - static_cast<float>(y),
-                    tz = p.z - static_cast<float>(z);
-        const float* c = &dense[static_cast<std::size_t>(((x & 126) * n + (y & 126)) * n + (z & 126))];
-        const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
-        const float near = mix(mix(c[0], c[1], tz), mix(c[n], c[n + 1], tz), ty);
-        const float far = mix(mix(c[n * n], c[n * n + 1], tz), mix(c[n * n + n], c[n * n + n + 1], tz), ty);
-        return mix(near, far, tx);
-    });
+    static const DenseArray dense;
+    probe_all(state, [&](const Vec3& p) { return dense.at(p); });
 }
 BENCHMARK(dense_array)->ArgName("sorted")->Arg(0)->Arg(1);
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds what writes docs/methods.md and docs/accuracy.md with their pictures, and runs it: tools/docs.sh [methods] [accuracy]
-# The first takes a minute, the second a quarter of an hour.
+# Builds what writes docs/methods.md, docs/accuracy.md and docs/performance.md with their pictures, and runs it:
+# tools/docs.sh [methods] [accuracy] [performance]. The first takes a minute, the others a quarter of an hour each.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-[ $# -gt 0 ] || set -- methods accuracy
+[ $# -gt 0 ] || set -- methods accuracy performance
 tools/setup.sh
 cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 for page in "$@"; do

@@ -2,6 +2,7 @@
 // hold the errors they were asked for.
 //
 //     alcove_accuracy_page <folder of meshes> <docs folder>
+#include "page.h"
 #include "subdivided.h"
 
 #include <alcove/alcove.h>
@@ -268,25 +269,13 @@ void write_page(const fs::path& folder, const fs::path& docs) {
     const std::string plans = planning_section(folder);
     for (const char* name : meshes)
         text += section_of(folder / name, images);
-    std::ofstream page(docs / "accuracy.md");
-    page << text << dense_section(folder / "bunny00.off") << plans;
-    if (!page.flush())
-        throw IoError((docs / "accuracy.md").string() + ": cannot be written");
+    text += dense_section(folder / "bunny00.off");
+    write_text(docs / "accuracy.md", text + plans);
 }
 
 }
 }
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        std::cerr << "usage: alcove_accuracy_page MESHES DOCS\n";
-        return 2;
-    }
-    try {
-        alcove::docs::write_page(argv[1], argv[2]);
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << "\n";
-        return 1;
-    }
+    return alcove::docs::run_page(argc, argv, alcove::docs::write_page);
 }

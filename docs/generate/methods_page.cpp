@@ -1,6 +1,7 @@
 // Writes docs/methods.md: every method of the catalog on three scenes beside exact rays, with its error.
 //
 //     alcove_methods_page <folder of meshes> <docs folder>
+#include "page.h"
 #include "words.h"
 
 #include <alcove/alcove.h>
@@ -178,25 +179,13 @@ void write_page(const std::filesystem::path& meshes, const std::filesystem::path
         table += fmt::format("| [{0}](#{0}) |{1} {2} |\n", method.name, cells, method.cost);
         sections += section_of(method);
     }
-    std::ofstream page(docs / "methods.md");
-    page << page_head << table_head << table << "\n" << sections;
-    if (!page.flush())
-        throw IoError((docs / "methods.md").string() + ": cannot be written");
+    write_text(docs / "methods.md",
+               std::string(page_head) + std::string(table_head) + table + "\n" + sections);
 }
 
 }
 }
 
 int main(int argc, char** argv) {
-    if (argc != 3) {
-        std::cerr << "usage: alcove_methods_page MESHES DOCS\n";
-        return 2;
-    }
-    try {
-        alcove::docs::write_page(argv[1], argv[2]);
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << error.what() << "\n";
-        return 1;
-    }
+    return alcove::docs::run_page(argc, argv, alcove::docs::write_page);
 }

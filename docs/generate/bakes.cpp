@@ -1,0 +1,139 @@
+#include "bakes.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+
+namespace alcove::docs {
+namespace {
+
+constexpr float radius = 0.1f;
+constexpr std::array voxels{64, 96, 128, 256}; // along the diagonal
+
+std::filesystem::path beside(const std::filesystem::path& file) {
+    return std::filesystem::path(file).replace_extension(".baked.ply");
+}
+
+}
+
+std::string Choice::text() const {
+    return voxel > 0.0f ? fmt::format("{}, voxel 1/{:.0f}", method.label(), 1.0f / voxel) : method.label();
+}
+
+Bake bake_once(const std::filesystem::path& file, const Choice& choice, double radius) {
+    std::vector<std::string> command{ALCOVE_PROGRAM,
+                                     "bake",
+                                     file,
+                                     "-o",
+                                     beside(file),
+                                     "--threads",
+                                     "1",
+                                     "--no-pilot",
+                                     "--json",
+                                     "--method",
+                                     std::string(choice.method.method->name),
+                                     "--radius",
+                                     fmt::format("{}%", 100.0 * radius)};
+    if (choice.method.samples > 0) {
+        command.emplace_back(choice.method.method->asks_rays ? "--rays" : "--samples");
+        command.push_back(fmt::format("{}", choice.method.samples));
+    }
+    if (choice.voxel > 0.0f) {
+        command.emplace_back("--voxel");
+        command.push_back(fmt::format("{:.9g}%", 100.0 * double(choice.voxel)));
+    }
+    const Run done = run(command);
+    const auto told = nlohmann::json::parse(done.output);
+    Bake bake{choice, done.cpu_seconds, {}, told.at("peak_rss_bytes")};
+    double start = done.cpu_seconds;
+    for (const char* phase : {"read", "grid", "occlusion", "write"})
+        start -= bake.phases[phase] = told.at("seconds").at(phase);
+    bake.phases["start"] = std::max(start, 0.0);
+    return bake;
+}
+
+Bake bake_median(const std::filesystem::path& file, const Choice& choice, double radius) {
+    std::array<Bake, 3> bakes;
+    for (Bake& bake : bakes)
+        bake = bake_once(file, choice, radius);
+    std::sort(bakes.begin(), bakes.end(), [](const Bake& a, const Bake& b) { return a.seconds < b.seconds; });
+    return bakes[1];
+}
+
+std::string outcome_of(const Run& bake) {
+    const auto told = nlohmann::json::parse(bake.output);
+    const std::string samples =
+        told.at("samples").is_null() ? "" : fmt::format(":{}", told.at("samples").get<int>());
+    return fmt::format(
+        "{:.1f} CPU seconds,\n{:.1f} GB at their peak; the plan was {}{}, its estimated RMSE {:.3f}",
+        bake.cpu_seconds, told.at("peak_rss_bytes").get<double>() / 1e9, told.at("method").get<std::string>(),
+        samples, told.at("estimated_rmse").get<double>());
+}
+
+Shop::Shop(const std::filesystem::path& file)
+    : file_(file), mesh_(file.string(), read_mesh(file)), truth_(make_truth(mesh_, radius)) {
+    for (const int along : voxels) {
+        const float voxel = 1.0f / static_cast<float>(along);
+        grids_.emplace(voxel, build_grid(mesh_, radius, voxel));
+    }
+}
+
+double Shop::rmse(const MethodChoice& choice, float voxel) const {
+    return measure(mesh_, truth_, voxel > 0.0f ? &grids_.at(voxel) : nullptr, choice).error.rmse;
+}
+
+int Shop::rays_for(double error) const {
+    int few = 1, enough = 2048;
+    while (enough - few > std::max(1, enough / 50)) {
+        const int middle = (few + enough) / 2;
+        (rmse(choose(find_method("exact"), middle), 0.0f) <= error ? enough : few) = middle;
+    }
+    return enough;
+}
+
+Comparison Shop::compare(double error) const {
+    const int rays = rays_for(error);
+    const MethodChoice exact = choose(find_method("exact"), rays);
+    const double plain_rmse = rmse(exact, 0.0f);
+    std::vector<Bake> offers{{{exact, 0.0f, plain_rmse}}};
+    const auto add = [&](std::string_view method, std::initializer_list<int> samples) {
+        for (const auto& [voxel, grid] : grids_)
+            for (const int count : samples)
+                if (const MethodChoice choice = choose(find_method(method), count); true)
+                    if (const double found = rmse(choice, voxel); found <= error) {
+                        offers.push_back({{choice, voxel, found}});
+                        break; // more rays are dearer
+                    }
+    };
+    add("calibrated", {10, 24});
+    add("guided", {1, 2, 3, 4, 6, 8, 16, 32, 64});
+    for (Bake& offer : offers)
+        offer = bake_once(file_, offer.choice, radius);
+    const Bake& cheapest = *std::min_element(
+        offers.begin(), offers.end(), [](const Bake& a, const Bake& b) { return a.seconds < b.seconds; });
+    std::vector<Bake> ours;
+    const auto t = medians({[&] {
+                                ours.push_back(bake_once(file_, cheapest.choice, radius));
+                                return ours.back().seconds;
+                            },
+                            [&] {
+                                return run({ALCOVE_PROGRAM, "bake", file_, "-o", beside(file_), "--threads",
+                                            "1", "--error", fmt::format("{}", error), "--json"})
+                                    .cpu_seconds;
+                            },
+                            [&] {
+                                return run({ALCOVE_PLAIN_BAKER, file_, beside(file_),
+                                            fmt::format("{}", radius), fmt::format("{}", rays)})
+                                    .cpu_seconds;
+                            }});
+    const auto median =
+        std::find_if(ours.begin(), ours.end(), [&](const Bake& bake) { return bake.seconds == t[0]; });
+    return {*median, t[1], rays, plain_rmse, t[2]};
+}
+
+}

@@ -1,0 +1,130 @@
+#include "floors.h"
+
+#include "dense_array.h"
+#include "scan.h"
+#include "timing.h"
+
+#include <fmt/format.h>
+
+#include <alcove/alcove.h>
+
+#include <cstring>
+#include <fstream>
+
+namespace alcove::docs {
+namespace {
+
+constexpr float voxel = 1.0f / 128.0f, step = 0.8f * voxel;
+constexpr int probes = 5;
+
+std::string row(std::string_view what, double floor, double ours) {
+    return fmt::format("| {} | {:.3g} | {:.3g} | {:.2f} |\n", what, floor, ours, ours / floor);
+}
+
+/// Points at five heights over the surfels, a batch each.
+template <class Sample>
+void probe(const std::vector<Surfel>& surfels, const Sample& sample) {
+    SurfelBatch batch;
+    SurfelBatch::Values x, y, z, distances;
+    for (std::size_t begin = 0; begin < surfels.size(); begin += batch.count) {
+        batch.count = 0;
+        for (std::size_t i = begin; i < surfels.size() && batch.count < SurfelBatch::capacity; ++i)
+            batch.push_back(surfels[i]);
+        for (int i = 0; i < probes; ++i) {
+            const float height = step * static_cast<float>(i);
+            for (std::size_t k = 0; k < batch.count; ++k) {
+                x[k] = batch.x[k] + height * batch.nx[k];
+                y[k] = batch.y[k] + height * batch.ny[k];
+                z[k] = batch.z[k] + height * batch.nz[k];
+            }
+            sample(Points{x.data(), y.data(), z.data(), batch.count}, distances.data());
+        }
+        benchmark::DoNotOptimize(distances);
+    }
+}
+
+std::string files_row(const std::filesystem::path& file) {
+    const std::filesystem::path copy = std::filesystem::path(file).replace_extension(".copy.ply");
+    std::vector<char> bytes(std::filesystem::file_size(file));
+    Mesh mesh;
+    const auto t = medians({[&] {
+                                return warm_cpu_seconds_of([&] {
+                                    std::ifstream(file, std::ios::binary)
+                                        .read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+                                });
+                            },
+                            [&] { return warm_cpu_seconds_of([&] { mesh = read_mesh(file); }); },
+                            [&] {
+                                return warm_cpu_seconds_of([&] {
+                                    std::ofstream(copy, std::ios::binary)
+                                        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+                                });
+                            },
+                            [&] { return warm_cpu_seconds_of([&] { write_mesh(mesh, copy); }); }});
+    const double bytes_per_nanosecond = 1e-9 * static_cast<double>(bytes.size());
+    return row("reading binary PLY, ns a byte, beside the bytes alone", t[0] / bytes_per_nanosecond,
+               t[1] / bytes_per_nanosecond) +
+           row("writing it, ns a byte, beside the bytes alone", t[2] / bytes_per_nanosecond,
+               t[3] / bytes_per_nanosecond);
+}
+
+std::string map_row() {
+    const Scan& s = scan(1);
+    const GridStack stack = voxelize(s.mesh, s.triangles, {.grid = {.radius = 4.0f * voxel, .voxel = voxel}});
+    const LevelStack field(stack);
+    std::vector<Surfel> surfels;
+    for (const std::uint32_t i : spatial_order(s.surfels))
+        surfels.push_back(s.surfels[i]);
+    const DenseArray dense;
+    const auto t = medians({[&] {
+                                return warm_cpu_seconds_of([&] {
+                                    probe(surfels, [&](const Points& points, float* values) {
+                                        for (std::size_t i = 0; i < points.count; ++i)
+                                            values[i] = dense.at((points[i] + 0.5f) / voxel);
+                                    });
+                                });
+                            },
+                            [&] {
+                                return warm_cpu_seconds_of([&] {
+                                    probe(surfels, [&](const Points& points, float* values) {
+                                        field.map(points, 4.0f * voxel, values);
+                                    });
+                                });
+                            }});
+    const double nanoseconds = 1e9 / (static_cast<double>(surfels.size()) * probes);
+    return row("map() near a surface, ns, beside a trilinear fetch from a dense array", nanoseconds * t[0],
+               nanoseconds * t[1]);
+}
+
+std::string grid_row() {
+    const Scan& s = scan(2);
+    const VoxelizeOptions options{.grid = {.radius = 4.0f / 256.0f, .voxel = 1.0f / 256.0f}};
+    std::size_t bytes = 0;
+    // What is read and what is written, each once: positions, triangles and the grid.
+    std::vector<char> from(s.mesh.positions.size() * sizeof(Vec3d) + s.triangles.size() * sizeof(Triangle),
+                           1);
+    const auto t = medians({[&] {
+                                return warm_cpu_seconds_of([&] {
+                                    std::vector<char> to(from.size() + bytes);
+                                    std::memcpy(to.data(), from.data(), from.size());
+                                    benchmark::DoNotOptimize(to.data());
+                                });
+                            },
+                            [&] {
+                                return warm_cpu_seconds_of(
+                                    [&] { bytes = voxelize(s.mesh, s.triangles, options).bytes(); });
+                            }});
+    const double nanoseconds = 1e9 / static_cast<double>(s.triangles.size());
+    return row(
+        "voxelizing 832 k triangles at 1/256, ns a triangle, beside a copy of what is read and written",
+        nanoseconds * t[0], nanoseconds * t[1]);
+}
+
+}
+
+std::string floors_section(const std::filesystem::path& file) {
+    return fmt::format("## Floors\n\n| what | floor | ours | ratio |\n| --- | --- | --- | --- |\n{}{}{}\n",
+                       files_row(file), map_row(), grid_row());
+}
+
+}
