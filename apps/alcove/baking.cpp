@@ -3,6 +3,7 @@
 #include "alcove/accuracy/planned_bake.h"
 #include "alcove/grid/plan.h"
 
+#include <limits>
 #include <map>
 
 namespace alcove::cli {
@@ -61,18 +62,19 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
     };
     baked.pilot_seconds = watch.lap();
     const double area = surface_area(input.mesh, input.triangles);
-    PlannedBake planned =
-        bake_planned(surfels, surface, make_field, pilot,
-                     {.error = *task.planning.error,
-                      .radius = radius,
-                      .seed = task.seed,
-                      .surfels = surfels.size(),
-                      .triangles = input.triangles.size(),
-                      .area = area,
-                      .finest_voxel = finest_voxel(area, input.triangles.size(), input.options.grid),
-                      .has_grid = has_grid,
-                      .wanted = task.wanted},
-                     progress);
+    const double finest = surroundings.fit() ? finest_voxel(area, input.triangles.size(), input.options.grid)
+                                             : std::numeric_limits<double>::infinity();
+    PlannedBake planned = bake_planned(surfels, surface, make_field, pilot,
+                                       {.error = *task.planning.error,
+                                        .radius = radius,
+                                        .seed = task.seed,
+                                        .surfels = surfels.size(),
+                                        .triangles = input.triangles.size(),
+                                        .area = area,
+                                        .finest_voxel = finest,
+                                        .has_grid = has_grid,
+                                        .wanted = task.wanted},
+                                       progress);
     baked.choice = planned.plan.choice;
     baked.values = std::move(planned.values);
     if (has_grid)

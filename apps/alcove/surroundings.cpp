@@ -33,11 +33,10 @@ Mesh nearby(const Mesh& mesh, const VoxelizedMesh& input) {
 
 /// The grids of an occluder, their voxels those of the mesh as far as its own size allows.
 GridStack voxelize_occluder(const Mesh& mesh, std::span<const Triangle> triangles, const std::string& file,
-                            double memory, const VoxelizedMesh& input) {
+                            const GridOptions& limits, const VoxelizedMesh& input) {
     const double scale = input.frame.diagonal / mesh.box().diagonal();
-    VoxelizeOptions options;
+    VoxelizeOptions options{.grid = limits};
     options.grid.radius = static_cast<float>(input.radius * scale);
-    options.grid.memory_limit = memory;
     const float voxel =
         input.stack.levels.empty() ? input.options.grid.voxel : input.stack.levels.front().voxel;
     if (voxel > 0.0f)
@@ -47,6 +46,8 @@ GridStack voxelize_occluder(const Mesh& mesh, std::span<const Triangle> triangle
         return voxelize(mesh, triangles, options);
     } catch (const InputError& error) {
         throw InputError(file + ": " + error.what());
+    } catch (const LimitError& error) {
+        throw LimitError(file + ": " + error.what());
     }
 }
 
@@ -96,13 +97,23 @@ void Surroundings::add_occluder(const std::string& file, VoxelizedMesh& input) {
 void Surroundings::voxelize(VoxelizedMesh& input) {
     for (Occluder& occluder : occluders_) {
         const GridStack stack =
-            voxelize_occluder(occluder.mesh, occluder.triangles, occluder.file,
-                              memory_limit / static_cast<double>(occluders_.size()), input);
+            voxelize_occluder(occluder.mesh, occluder.triangles, occluder.file, limits(), input);
         for (const std::string& warning : stack.warnings)
             input.warnings.push_back(occluder.file + ": " + warning);
         occluder.bytes = stack.bytes();
         occluder.field = LevelStack(stack);
     }
+}
+
+GridOptions Surroundings::limits() const {
+    return {.memory_limit = memory_limit / static_cast<double>(occluders_.size())};
+}
+
+bool Surroundings::fit() const {
+    return std::all_of(occluders_.begin(), occluders_.end(), [&](const Occluder& occluder) {
+        return std::isfinite(finest_voxel(surface_area(occluder.mesh, occluder.triangles),
+                                          occluder.triangles.size(), limits()));
+    });
 }
 
 std::size_t Surroundings::bytes() const {

@@ -30,6 +30,7 @@ class Surroundings {
     /// Makes the grids of the occluders. Voxels are as large as those of the mesh, but from 1/512 to 1/32 of an
     /// occluder, as far as memory goes. Warnings go to `input`. \throw what voxelizing throws.
     void voxelize(VoxelizedMesh& input);
+    bool fit() const; ///< whether there is memory for their grids
 
     /// The mesh and its grid among them, in the unit space of `frame`: as a field, which takes voxelize() before,
     /// as triangles, or both.
@@ -57,6 +58,7 @@ class Surroundings {
     AnyField field_around(const GridStack& stack, const Frame& frame) const;
     RaySurface rays_around(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame) const;
     void add_occluder(const std::string& file, VoxelizedMesh& input);
+    GridOptions limits() const; ///< of each of them
 
     std::vector<Occluder> occluders_;
     std::optional<Ground> ground_;

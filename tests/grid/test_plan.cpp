@@ -68,6 +68,22 @@ TEST(Plan, TrianglesThatDoNotFitAreRefused) {
     EXPECT_THROW(plan(mesh, {.voxel = 0.5f, .memory_limit = tiny.memory_limit}), LimitError);
 }
 
+TEST(Plan, AVoxelFitsOrIsRefusedWhateverTheLimit) {
+    const Mesh mesh = test::sphere_mesh(3);
+    std::size_t refused = 0, fitting = 0;
+    for (double limit = 1e5; limit < 1e9; limit *= 1.01)
+        try {
+            const LevelPlan p = plan(mesh, {.memory_limit = limit});
+            EXPECT_LE(p.bytes, limit);
+            EXPECT_LE(p.voxel, 1.0f);
+            ++fitting;
+        } catch (const LimitError&) {
+            ++refused;
+        }
+    EXPECT_GT(refused, 0u);
+    EXPECT_GT(fitting, 0u);
+}
+
 /// What is promised before allocation holds for what is allocated: grids and bricks fit the estimate, and it
 /// is not many times too high.
 TEST(Plan, TheEstimateCoversTheGrids) {
@@ -100,6 +116,19 @@ TEST(Voxelize, NeitherScaleNorPlaceChangesTheField) {
             const Vec3 p = 0.6f * (2.0f * Vec3(i % 10, i / 10 % 10, i / 100) / 9.0f - 1.0f);
             EXPECT_NEAR(moved.map(p), unit.map(p), 1e-5f) << scale;
         }
+    }
+}
+
+TEST(Voxelize, VerticesThatAreNoNumbersDoNotMatter) {
+    const Mesh mesh = test::sphere_mesh(3);
+    const GridStack alone = voxelize(mesh, triangulate(mesh).triangles);
+    for (const Vec3d& odd :
+         {Vec3d(1e30, 0, NAN), Vec3d(0, 1e30, NAN), Vec3d(1e30, NAN, 0), Vec3d(INFINITY, 0, 0), Vec3d(NAN)}) {
+        Mesh with = mesh;
+        with.positions.push_back(odd);
+        const GridStack stack = voxelize(with, triangulate(with).triangles);
+        EXPECT_EQ(stack.sign, alone.sign);
+        EXPECT_EQ(stack.levels.front().active_voxels, alone.levels.front().active_voxels);
     }
 }
 

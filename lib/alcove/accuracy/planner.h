@@ -14,8 +14,8 @@ struct PlanRequest {
     std::uint32_t seed = 0;
     std::size_t surfels = 0, triangles = 0;
     double area = 0.0; ///< of the triangles, unit space
-    double finest_voxel =
-        0.0;               ///< no grid finer than that, unit space, as finest_voxel() in grid/plan.h has it
+    /// No grid is finer, unit space, as finest_voxel() in grid/plan.h has it.
+    double finest_voxel = 0.0;
     bool has_grid = false; ///< one of GridOptions' own voxel is there in any case, at no cost
     ChannelSet wanted = Channel::ao;
 };

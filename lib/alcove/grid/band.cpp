@@ -97,14 +97,15 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
         brick.active[row / brick_size] |= std::uint64_t{active} << row % brick_size * brick_size;
         brick.count += static_cast<std::size_t>(std::popcount(active));
     }
-    for (std::size_t voxel = 0; normals_ && voxel < brick_volume; ++voxel)
-        if (float& distance = brick.values[voxel]; distance < sheet_thickness) {
-            const auto i = static_cast<int>(voxel);
-            const Index3 p = stride * (block.low + Index3(i / (brick_size * brick_size),
-                                                          i / brick_size % brick_size, i % brick_size));
-            if (normals_->side(nearest.triangle[voxel], Vec3d(p)) < 0.0)
-                distance = -distance;
-        }
+    if (normals_)
+        for (std::size_t voxel = 0; voxel < brick_volume; ++voxel)
+            if (float& distance = brick.values[voxel]; distance < sheet_thickness) { // none is negative yet
+                const auto i = static_cast<int>(voxel);
+                const Index3 p = stride * (block.low + Index3(i / (brick_size * brick_size),
+                                                              i / brick_size % brick_size, i % brick_size));
+                if (normals_->side(nearest.triangle[voxel], Vec3d(p)) < 0.0)
+                    distance = -distance;
+            }
     return brick;
 }
 

@@ -12,7 +12,6 @@
 #include "alcove/grid/octants-inl.h"
 #include "alcove/grid/sieve.h"
 
-#include <algorithm>
 #include <bit>
 #include <limits>
 #include <span>
@@ -83,7 +82,10 @@ class LeafSearch {
         limit_by_points(tree, nodes);
         constexpr float any = -1.0f; // radius: down to the leaves
         const auto leaves = sieve.sift(tree, nodes, any, [&](std::uint32_t node) HWY_ATTR {
-            return wanting(tree.nodes[node], best, sieve.shares().all().size());
+            // Its row stands beside its share; without one, the next node takes the row.
+            const std::size_t row = sieve.shares().all().size();
+            measure(tree.nodes[node], row);
+            return wanting(best, row);
         });
         if (leaves.empty())
             return;
@@ -116,12 +118,11 @@ class LeafSearch {
         }
     }
 
-    HWY_INLINE std::uint32_t wanting(const Bounds& bounds, const NearestOfEight& best, std::size_t row) {
+    HWY_INLINE void measure(const Bounds& bounds, std::size_t row) {
         if (row >= rows_.size())
             rows_.resize(2 * row + eight);
         for (int lane = 0; lane < eight; lane += lanes)
             hn::Store(distance2(bounds, load(voxels_, lane)), d, rows_[row].least2 + lane);
-        return wanting(best, row);
     }
 
     HWY_INLINE std::uint32_t wanting(const NearestOfEight& best, std::size_t row) const {

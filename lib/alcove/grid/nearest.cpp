@@ -11,22 +11,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <span>
 
 HWY_BEFORE_NAMESPACE();
 namespace alcove {
 namespace HWY_NAMESPACE {
-
-/// Hands the wanted leaves of some nodes on, the most promising first: after these little is left of the others.
-template <class Wanting, class Take>
-void take_wanted(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const NearestNodes& first,
-                 Sieve& sieve, const Wanting& wanting, const Take& take) {
-    constexpr float any = -1.0f; // radius: down to the leaves
-    take(sieve.sift(tree, first.nodes(), any, wanting));
-    take(sieve.sift(tree, nodes, any,
-                    [&](std::uint32_t node) HWY_ATTR { return first.has(node) ? 0 : wanting(node); }));
-}
 
 /// The centres of the octants, themselves voxels where the block is of 2³.
 EightPoints octants_of(const Block& block) {
@@ -124,7 +113,11 @@ class BrickSearch {
             }
         };
         const auto wanting = [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree_.nodes[node]); };
-        take_wanted(tree_, nodes, first, sieve_, wanting, look);
+        constexpr float any = -1.0f; // radius: down to the leaves
+        look(sieve_.sift(tree_, first.nodes(), any, wanting));
+        look(sieve_.sift(tree_, nodes, any, [&](std::uint32_t node) HWY_ATTR {
+            return first.has(node) ? 0 : wanting(node); // after the first, little is left of the others
+        }));
         triangles_.share_out(wanted_);
         for (int i = 0; i < eight; ++i) {
             const auto& part = wanted_[static_cast<std::size_t>(i)];

@@ -1,5 +1,6 @@
 #include "alcove/grid/pieces.h"
 
+#include "alcove/mesh/mesh.h"
 #include "alcove/morton.h"
 #include "alcove/parallel.h"
 
@@ -39,12 +40,11 @@ bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return length2(glm::cross(b - a, c - a)) > 0.0;
 }
 
-/// Halves a range of the curve, always between octants or cells, until groups are small enough. A few that are near one
-/// another are filled whatever the octants: half-empty ones would be more to build, and to look through.
-void group(std::span<const PieceKey> order, std::uint32_t begin, std::uint32_t end,
+/// Halves a range of the curve, always between octants or cells, until groups are small enough. A few in one cube, whose
+/// keys differ by less than it, are filled whatever the octants: half-empty ones are more to build and to look through.
+void group(std::span<const PieceKey> order, std::uint32_t begin, std::uint32_t end, std::uint32_t cube,
            HugeVector<std::uint32_t>& out) {
-    // Measured with 1 to 28 pieces a voxel. The cube is of 64 cells along a side.
-    constexpr std::uint32_t largest = GroupedPieces::largest_group, few = 4 * largest, cube = 1 << 3 * 6;
+    constexpr std::uint32_t largest = GroupedPieces::largest_group, few = 4 * largest;
     const std::uint32_t differing = order[begin].key ^ order[end - 1].key;
     if (end - begin <= largest || (end - begin <= few && differing < cube)) {
         for (; end - begin > largest; begin += largest)
@@ -59,8 +59,8 @@ void group(std::span<const PieceKey> order, std::uint32_t begin, std::uint32_t e
             part.begin(), part.end(), [&](const PieceKey& piece) { return (piece.key & bit) == 0; });
         middle = begin + static_cast<std::uint32_t>(upper - part.begin());
     }
-    group(order, begin, middle, out);
-    group(order, middle, end, out);
+    group(order, begin, middle, cube, out);
+    group(order, middle, end, cube, out);
 }
 
 Piece piece_of(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
@@ -76,8 +76,8 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
     : positions_(positions), triangles_(triangles) {
     double extent = 1.0;
     for (const Vec3d& p : positions)
-        if (const double most = std::max({p.x, p.y, p.z}); std::isfinite(most))
-            extent = std::max(extent, most);
+        if (is_finite(p))
+            extent = std::max({extent, p.x, p.y, p.z});
     const double scale = std::min(cells_per_voxel, most_cells / extent);
 
     // Most triangles are one piece, which is made when it is asked for; those of the others are kept.
@@ -122,8 +122,10 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
     radix_sort(order_, 0, 3 * (std::ilogb(scale * extent) + 1));
     begin_.reserve(count + 1);
     begin_.push_back(0);
+    constexpr double cube = 16.0; // voxels along a side; measured with 1 to 28 pieces a voxel
+    const int octaves = std::max(0, std::ilogb(cube * scale));
     if (count > 0)
-        group(order_, 0, static_cast<std::uint32_t>(count), begin_);
+        group(order_, 0, static_cast<std::uint32_t>(count), std::uint32_t{1} << 3 * octaves, begin_);
 }
 
 void GroupedPieces::expect(std::size_t i) const {

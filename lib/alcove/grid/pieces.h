@@ -35,7 +35,7 @@ class GroupedPieces {
   public:
     static constexpr std::uint32_t largest_group = 8;
 
-    /// `positions` are in index space, none below 0; they and the triangles must outlive this.
+    /// `positions` are in index space, none below 0, and finite where a triangle names them; they and the triangles must outlive this.
     GroupedPieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
     std::size_t count() const { return begin_.size() - 1; } ///< of groups

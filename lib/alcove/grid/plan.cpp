@@ -23,6 +23,7 @@ constexpr double bytes_per_triangle = 240.0;
 // All levels together against the finest: 1 + 1/4 + 1/16 + ...
 constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
+constexpr double largest_voxel = 1.0; // none is larger than the diagonal
 
 /// Bytes = fixed + by_surface / voxel².
 struct Estimate {
@@ -38,7 +39,7 @@ struct Estimate {
     }
     double bytes(double voxel) const { return fixed + by_surface / (voxel * voxel); }
     double finest(double limit) const {
-        if (fixed >= limit)
+        if (!(bytes(largest_voxel) < limit))
             return std::numeric_limits<double>::infinity();
         return std::max(std::sqrt(by_surface / (limit - fixed)), 1.0 / largest_index);
     }
@@ -76,13 +77,13 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
     const double finest = estimate.finest(options.memory_limit);
     if (!std::isfinite(finest))
         throw LimitError(
-            fmt::format("a grid of {} million triangles needs about {:.1f} GB, over the limit of "
-                        "{:.1f} GB: use --method exact, which needs none, or fewer triangles",
-                        triangles.size() / 1'000'000, estimate.fixed / 1e9, options.memory_limit / 1e9));
+            fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
+                        "fewer triangles, or bake by --method exact, which takes no grid",
+                        triangles.size(), estimate.bytes(largest_voxel) / 1e9, options.memory_limit / 1e9));
     if (options.voxel > 0.0f && options.voxel < finest)
         throw LimitError(
             fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
-                        "of {:.1f} GB: use --voxel {:.2g}% or more, or --voxel auto",
+                        "of {:.1f} GB: use --voxel {}% or more, or --voxel auto",
                         100.0 * options.voxel, estimate.bytes(options.voxel) / 1e9,
                         options.memory_limit / 1e9, std::ceil(1e4 * finest) / 100.0));
     LevelPlan plan;

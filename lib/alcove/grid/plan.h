@@ -42,8 +42,8 @@ double finest_voxel(double area, std::size_t triangles, const GridOptions& optio
 
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
 /// from area / voxel². A voxel of 0 is coarsened until it fits.
-/// \throw LimitError if a voxel that was asked for needs more than the limit or more than 2^20 voxels along
-/// the diagonal, naming the finest voxel that fits; if none does.
+/// \throw LimitError if no voxel fits the limit; if one that was asked for needs more than it or more than 2^20 voxels
+/// along the diagonal, naming the finest that fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
 
 }

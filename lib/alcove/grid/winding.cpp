@@ -1,5 +1,6 @@
 #include "alcove/grid/winding.h"
 
+#include "alcove/mesh/mesh.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>
@@ -79,8 +80,8 @@ void for_each_covered(const Corner& p, const Corner& q, const Corner& r, std::in
 WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
     double extent = 1.0;
     for (const Vec3d& p : positions)
-        if (const double most = std::max(p.x, p.y); std::isfinite(most))
-            extent = std::max(extent, most);
+        if (is_finite(p))
+            extent = std::max({extent, p.x, p.y});
     // Products of two differences, doubled, stay below 2^63.
     const int shift = 29 - std::ilogb(extent);
     const double scale = std::ldexp(1.0, shift);

@@ -76,11 +76,12 @@ struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
-    std::span<const std::byte> rows{};    ///< all of them one after another, packed, little endian
-    std::shared_ptr<const void> keeper{}; ///< of their memory
+    /// All of them one after another, packed, little endian; in memory that `keeper` holds.
+    std::span<const std::byte> rows{};
+    std::shared_ptr<const void> keeper{};
 
-    void keep(std::vector<std::byte> made); ///< as the rows
-
+    /// Makes these the rows, kept by this element and its copies.
+    void keep(std::vector<std::byte> made);
     const PlyProperty* find(std::string_view property) const;
     bool has_lists() const;
     std::size_t smallest_row() const; ///< bytes of a row whose lists are empty
