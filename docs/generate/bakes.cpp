@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <initializer_list>
-#include <optional>
 
 namespace alcove::docs {
 namespace {
@@ -50,10 +48,10 @@ Bake bake_once(const std::filesystem::path& file, const Choice& choice, double r
     const Run done = run(command);
     const auto told = nlohmann::json::parse(done.output);
     Bake bake{choice, done.cpu_seconds, {}, told.at("peak_rss_bytes")};
-    double start = done.cpu_seconds;
+    double start = done.wall_seconds;
     for (const char* phase : {"read", "grid", "occlusion", "write"})
         start -= bake.phases[phase] = told.at("seconds").at(phase);
-    bake.phases["start"] = std::max(start, 0.0);
+    bake.phases["start"] = start;
     return bake;
 }
 
@@ -75,7 +73,7 @@ std::string outcome_of(const Run& bake) {
         samples, told.at("estimated_rmse").get<double>());
 }
 
-Shop::Shop(const std::filesystem::path& file)
+MeasuredChoices::MeasuredChoices(const std::filesystem::path& file)
     : file_(file), mesh_(file.string(), read_mesh(file)), truth_(make_truth(mesh_, radius)) {
     for (const int along : voxels) {
         const float voxel = 1.0f / static_cast<float>(along);
@@ -83,12 +81,15 @@ Shop::Shop(const std::filesystem::path& file)
     }
 }
 
-double Shop::rmse(const MethodChoice& choice, float voxel) const {
+double MeasuredChoices::rmse(const MethodChoice& choice, float voxel) const {
     return measure(mesh_, truth_, voxel > 0.0f ? &grids_.at(voxel) : nullptr, choice).error.rmse;
 }
 
-int Shop::rays_for(double error) const {
-    int few = 1, enough = 2048;
+/// To about a fiftieth.
+int MeasuredChoices::rays_for(double error) const {
+    int few = 1, enough = 2;
+    while (rmse(choose(find_method("exact"), enough), 0.0f) > error)
+        few = enough, enough *= 2;
     while (enough - few > std::max(1, enough / 50)) {
         const int middle = (few + enough) / 2;
         (rmse(choose(find_method("exact"), middle), 0.0f) <= error ? enough : few) = middle;
@@ -96,19 +97,20 @@ int Shop::rays_for(double error) const {
     return enough;
 }
 
-Comparison Shop::compare(double error) const {
+Comparison MeasuredChoices::compare(double error) const {
     const int rays = rays_for(error);
     const MethodChoice exact = choose(find_method("exact"), rays);
     const double plain_rmse = rmse(exact, 0.0f);
     std::vector<Bake> offers{{{exact, 0.0f, plain_rmse}}};
     const auto add = [&](std::string_view method, std::initializer_list<int> samples) {
         for (const auto& [voxel, grid] : grids_)
-            for (const int count : samples)
-                if (const MethodChoice choice = choose(find_method(method), count); true)
-                    if (const double found = rmse(choice, voxel); found <= error) {
-                        offers.push_back({{choice, voxel, found}});
-                        break; // more rays are dearer
-                    }
+            for (const int count : samples) { // more of them are dearer
+                const MethodChoice choice = choose(find_method(method), count);
+                if (const double found = rmse(choice, voxel); found <= error) {
+                    offers.push_back({{choice, voxel, found}});
+                    break;
+                }
+            }
     };
     add("calibrated", {10, 24});
     add("guided", {1, 2, 3, 4, 6, 8, 16, 32, 64});

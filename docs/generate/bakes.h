@@ -23,7 +23,7 @@ struct Choice {
 struct Bake {
     Choice choice{};
     double seconds = 0.0;
-    std::map<std::string, double> phases{}; ///< seconds of start, read, grid, occlusion and write
+    std::map<std::string, double> phases{}; ///< wall clock of start, read, grid, occlusion and write
     std::size_t peak_rss_bytes = 0;
 };
 
@@ -44,9 +44,9 @@ struct Comparison {
 };
 
 /// What can be had on a mesh at a radius of 10 %.
-class Shop {
+class MeasuredChoices {
   public:
-    explicit Shop(const std::filesystem::path& file);
+    explicit MeasuredChoices(const std::filesystem::path& file);
 
     std::size_t vertices() const { return mesh_.surfels.size(); }
     /// The cheapest of ours, and Embree alone with as many rays as it takes.

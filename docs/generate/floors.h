@@ -7,7 +7,7 @@
 namespace alcove::docs {
 
 /// Reading and writing beside a byte read once and written once, map() beside a fetch from a dense array, a grid beside
-/// the memory that it writes.
+/// a copy of what it is made from and of what it is.
 std::string floors_section(const std::filesystem::path& file);
 
 }

@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 namespace alcove::docs {

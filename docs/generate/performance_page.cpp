@@ -15,8 +15,9 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <array>
-#include <cmath>
 
 namespace alcove::docs {
 namespace {
@@ -26,9 +27,10 @@ namespace fs = std::filesystem;
 constexpr std::string_view head = R"(# Where the time goes
 
 Written by `tools/docs.sh performance`, on one thread: do not edit. CPU seconds; figures that are held against each
-other were taken in turns, five times, and are medians. The machine is shared and its clock drifts: trust ratios.
-Lengths are shares of the diagonal. The meshes are armadillo.off, each triangle split in four as often as it takes, and
-moved along the normals by one mean edge of noise where errors are measured.
+other were taken in turns, five times, and are medians. Phases are wall clock, of the bake in the middle of five, of three
+where it grows. The machine is shared and its clock drifts: trust ratios. Lengths are shares of the diagonal. The meshes
+are armadillo.off, each triangle split in four as often as it takes, and moved along the normals by one mean edge of noise
+where errors are measured.
 
 )";
 
@@ -64,14 +66,15 @@ std::string phases_table(const std::vector<Bake>& bakes) {
 std::string file_to_file_section(const std::vector<fs::path>& files) {
     std::string rows, phases;
     for (const fs::path& file : files) {
-        const Shop shop(file);
+        const MeasuredChoices choices(file);
         std::vector<Bake> bakes;
         for (const double error : {0.05, 0.02, 0.005}) {
-            const Comparison c = shop.compare(error);
-            rows += fmt::format(
-                "| {} | {} | {} | {:.4f} | {:.3f} | {:.3f} | {} | {:.4f} | {:.3f} | {:.2f} |\n",
-                thousands(shop.vertices()), error, c.ours.choice.text(), c.ours.choice.rmse, c.ours.seconds,
-                c.planned_seconds, c.rays, c.plain_rmse, c.plain_seconds, c.plain_seconds / c.ours.seconds);
+            const Comparison c = choices.compare(error);
+            rows +=
+                fmt::format("| {} | {} | {} | {:.4f} | {:.3f} | {:.3f} | {} | {:.4f} | {:.3f} | {:.2f} |\n",
+                            thousands(choices.vertices()), error, c.ours.choice.text(), c.ours.choice.rmse,
+                            c.ours.seconds, c.planned_seconds, c.rays, c.plain_rmse, c.plain_seconds,
+                            c.plain_seconds / c.ours.seconds);
             bakes.push_back(c.ours);
             std::cerr << file.filename().string() << " " << error << "\n";
         }
@@ -155,7 +158,7 @@ std::string growth_table(std::string_view what, const std::vector<std::pair<std:
 std::string growth_section(const fs::path& scratch, const fs::path& images) {
     const Choice calibrated{choose(find_method("calibrated"), 10), 1.0f / 256.0f, 0.0};
     std::vector<std::pair<std::string, Bake>> by_triangles, by_voxel, by_radius;
-    Chart chart{"triangles", "CPU seconds", {}, {}};
+    Chart chart{"triangles", "seconds", {}, {}};
     for (const std::string_view phase : {"read", "grid", "occlusion", "write"})
         chart.series.push_back({std::string(phase), chart.series.size(), true});
     Mesh mesh = scan(0).mesh;
@@ -203,24 +206,35 @@ std::string ten_million_section(const fs::path& folder, const fs::path& scratch)
         outcome_of(bake));
 }
 
+/// A folder that goes with this.
+struct Scratch {
+    fs::path folder = fs::temp_directory_path() / fmt::format("alcove-performance-{}", ::getpid());
+
+    Scratch() { fs::create_directories(folder); }
+    ~Scratch() {
+        std::error_code ignored;
+        fs::remove_all(folder, ignored);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+};
+
 void write_page(const fs::path& folder, const fs::path& docs) {
     const ThreadLimit one_thread(1);
     const fs::path images = docs / "images" / "performance";
-    const fs::path scratch = fs::temp_directory_path() / fmt::format("alcove-performance-{}", ::getpid());
+    const Scratch scratch;
     fs::create_directories(images);
-    fs::create_directories(scratch);
     std::vector<fs::path> files;
     for (const std::int64_t level : {0, 1, 2}) {
-        files.push_back(scratch / fmt::format("noisy_{}.ply", level));
+        files.push_back(scratch.folder / fmt::format("noisy_{}.ply", level));
         write_mesh(displaced(scan(level).mesh), files.back());
     }
     std::string text(head);
     text += file_to_file_section(files);
     text += voxelizing_section();
     text += floors_section(files.back());
-    text += ten_million_section(folder, scratch);
-    text += growth_section(scratch, images);
-    fs::remove_all(scratch);
+    text += ten_million_section(folder, scratch.folder);
+    text += growth_section(scratch.folder, images);
     write_text(docs / "performance.md", text);
 }
 

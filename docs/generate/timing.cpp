@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <stdexcept>
 
 namespace alcove::docs {
@@ -68,6 +69,7 @@ Run run(const std::vector<std::string>& command) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    const auto begin = std::chrono::steady_clock::now();
     pid_t child = 0;
     const int failed = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -78,6 +80,7 @@ Run run(const std::vector<std::string>& command) {
     rusage usage{};
     if (failed != 0 || ::wait4(child, &status, 0, &usage) != child || status != 0)
         throw std::runtime_error(command[0] + " did not end well");
+    result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     return result;
 }

@@ -16,7 +16,7 @@ std::vector<double> medians(const std::vector<std::function<double()>>& takers, 
 
 /// A program that has ended well.
 struct Run {
-    double cpu_seconds = 0.0;
+    double cpu_seconds = 0.0, wall_seconds = 0.0;
     std::string output; ///< stdout
 };
 
