@@ -6,6 +6,7 @@
 #include "alcove/mesh/colors.h"
 #include "alcove/mesh/source.h"
 #include "alcove/mesh/write.h"
+#include "alcove/resident_memory.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -203,7 +204,7 @@ void print_result(const BakeOptions& options, ChannelSet wanted, const Voxelized
                     {"grid_bytes", grid_bytes},
                     {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
                     {"seconds", seconds},
-                    {"peak_rss_bytes", peak_rss_bytes()},
+                    {"peak_rss_bytes", peak_resident_bytes()},
                     {"warnings", input.warnings}});
     else if (!options.common.quiet)
         fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}{}\n", options.output, names_of(wanted),

@@ -48,8 +48,6 @@ std::string extension(const std::string& file);
 /// Prints the object on stdout.
 void print_json(const nlohmann::ordered_json& object);
 
-std::size_t peak_rss_bytes();
-
 /// Wall-clock seconds since it was made or last asked.
 class Stopwatch {
   public:

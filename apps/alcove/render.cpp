@@ -9,6 +9,7 @@
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/grid_io.h"
 #include "alcove/render/renderer.h"
+#include "alcove/resident_memory.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -206,7 +207,7 @@ void run(const Options& options) {
                       {"up", triple(camera.up())},
                       {"fov", camera.fov()}}},
                     {"seconds", seconds},
-                    {"peak_rss_bytes", peak_rss_bytes()},
+                    {"peak_rss_bytes", peak_resident_bytes()},
                     {"warnings", warnings}});
 }
 

@@ -3,6 +3,7 @@
 
 #include "alcove/grid/grid_io.h"
 #include "alcove/parallel.h"
+#include "alcove/resident_memory.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ void run(const VoxelizeVerbOptions& options) {
                     {"levels", levels},
                     {"grid_bytes", input.stack.bytes()},
                     {"seconds", seconds},
-                    {"peak_rss_bytes", peak_rss_bytes()},
+                    {"peak_rss_bytes", peak_resident_bytes()},
                     {"warnings", input.warnings}});
     else if (!options.common.quiet)
         for (std::size_t i = 0; i < levels.size(); ++i)

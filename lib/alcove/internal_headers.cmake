@@ -34,4 +34,5 @@ set(alcove_internal_headers
     occlusion/shared_rays.h
     occlusion/triangle_pairs.h
     radix_sort.h
-    render/camera_rays.h)
+    render/camera_rays.h
+    resident_memory.h)

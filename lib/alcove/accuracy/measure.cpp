@@ -7,9 +7,9 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
+#include "alcove/resident_memory.h"
 
 #include <ctime>
-#include <fstream>
 
 namespace alcove {
 namespace {
@@ -18,24 +18,12 @@ namespace {
 constexpr std::uint32_t truth_seed = 0x7ea7;
 constexpr std::size_t most_counted = 1024;
 
-/// CPU seconds of the process, and its peak memory, since it was made.
+/// CPU seconds of the process since it was made, and from then on its peak memory.
 class ProcessMeter {
   public:
-    // 5 sets the peak back to what is resident now.
-    ProcessMeter() { std::ofstream("/proc/self/clear_refs") << 5; }
+    ProcessMeter() { forget_peak_resident_bytes(); }
 
     double seconds() const { return now() - start_; }
-
-    static std::size_t peak_rss_bytes() {
-        std::ifstream status("/proc/self/status");
-        for (std::string word; status >> word;)
-            if (word == "VmHWM:") {
-                std::size_t kibibytes = 0;
-                status >> kibibytes;
-                return kibibytes * 1024;
-            }
-        return 0;
-    }
 
   private:
     static double now() {
@@ -112,7 +100,7 @@ MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, con
     std::size_t active = 0;
     for (const LevelSet& level : stack.levels)
         active += level.active_voxels;
-    return {std::move(field), voxel, active, stack.bytes(), meter.seconds(), ProcessMeter::peak_rss_bytes()};
+    return {std::move(field), voxel, active, stack.bytes(), meter.seconds(), peak_resident_bytes()};
 }
 
 std::string Measurement::label() const {
@@ -139,7 +127,7 @@ Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const Measured
     const ChannelValues baked = bake_channels(mesh.surfels, occluders, *choice.method,
                                               choice.settings(truth.radius), Channel::ao, progress);
     m.occlusion_seconds = meter.seconds();
-    m.peak_rss_bytes = ProcessMeter::peak_rss_bytes();
+    m.peak_rss_bytes = peak_resident_bytes();
 
     if (grid) {
         m.voxel = grid->field.resolution();
