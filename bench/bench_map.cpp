@@ -8,6 +8,7 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/occlusion/bake.h"
 #include "dense_array.h"
+#include "probe_batches.h"
 #include "scan.h"
 
 #include <nanovdb/util/OpenToNanoVDB.h>
@@ -98,24 +99,13 @@ void bricks_batched(benchmark::State& state) {
     const BrickView view = s.bricks->view();
     float sum = 0.0f;
     for (auto _ : state) {
-        SurfelBatch batch;
-        SurfelBatch::Values x, y, z, d;
-        for (std::size_t begin = 0; begin < surfels.size(); begin += batch.count) {
-            batch.count = 0;
-            for (std::size_t i = begin; i < surfels.size() && batch.count < SurfelBatch::capacity; ++i)
-                batch.push_back(surfels[i]);
-            for (int i = 0; i < probes; ++i) {
-                const float h = voxel * 0.8f * static_cast<float>(i);
-                for (std::size_t k = 0; k < batch.count; ++k) {
-                    x[k] = batch.x[k] + h * batch.nx[k];
-                    y[k] = batch.y[k] + h * batch.ny[k];
-                    z[k] = batch.z[k] + h * batch.nz[k];
-                }
-                sample_bricks(view, {x.data(), y.data(), z.data(), batch.count}, d.data());
-                for (std::size_t k = 0; k < batch.count; ++k)
-                    sum += d[k];
-            }
-        }
+        probe_batches(
+            surfels, probes, 0.8f * voxel,
+            [&](const Points& points, float* distances) { sample_bricks(view, points, distances); },
+            [&](const SurfelBatch::Values& distances, std::size_t count) {
+                for (std::size_t k = 0; k < count; ++k)
+                    sum += distances[k];
+            });
         benchmark::DoNotOptimize(sum);
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(s.sorted.size()) * probes);

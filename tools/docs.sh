@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds what writes docs/methods.md, docs/accuracy.md and docs/performance.md with their pictures, and runs it:
-# tools/docs.sh [methods] [accuracy] [performance]. The first takes a minute, the others a quarter of an hour each.
+# tools/docs.sh [methods] [accuracy] [performance]. The first takes a minute, the others up to a quarter of an hour.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- methods accuracy performance

@@ -33,10 +33,11 @@ Mesh nearby(const Mesh& mesh, const VoxelizedMesh& input) {
 
 /// The grids of an occluder, their voxels those of the mesh as far as its own size allows.
 GridStack voxelize_occluder(const Mesh& mesh, std::span<const Triangle> triangles, const std::string& file,
-                            const GridOptions& limits, const VoxelizedMesh& input) {
+                            double memory, const VoxelizedMesh& input) {
     const double scale = input.frame.diagonal / mesh.box().diagonal();
-    VoxelizeOptions options{.grid = limits};
+    VoxelizeOptions options;
     options.grid.radius = static_cast<float>(input.radius * scale);
+    options.grid.memory_limit = memory;
     const float voxel =
         input.stack.levels.empty() ? input.options.grid.voxel : input.stack.levels.front().voxel;
     if (voxel > 0.0f)
@@ -97,7 +98,7 @@ void Surroundings::add_occluder(const std::string& file, VoxelizedMesh& input) {
 void Surroundings::voxelize(VoxelizedMesh& input) {
     for (Occluder& occluder : occluders_) {
         const GridStack stack =
-            voxelize_occluder(occluder.mesh, occluder.triangles, occluder.file, limits(), input);
+            voxelize_occluder(occluder.mesh, occluder.triangles, occluder.file, memory_each(), input);
         for (const std::string& warning : stack.warnings)
             input.warnings.push_back(occluder.file + ": " + warning);
         occluder.bytes = stack.bytes();
@@ -105,14 +106,14 @@ void Surroundings::voxelize(VoxelizedMesh& input) {
     }
 }
 
-GridOptions Surroundings::limits() const {
-    return {.memory_limit = memory_limit / static_cast<double>(occluders_.size())};
+double Surroundings::memory_each() const {
+    return memory_limit / static_cast<double>(occluders_.size());
 }
 
 bool Surroundings::fit() const {
     return std::all_of(occluders_.begin(), occluders_.end(), [&](const Occluder& occluder) {
         return std::isfinite(finest_voxel(surface_area(occluder.mesh, occluder.triangles),
-                                          occluder.triangles.size(), limits()));
+                                          occluder.triangles.size(), {.memory_limit = memory_each()}));
     });
 }
 

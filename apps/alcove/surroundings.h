@@ -58,7 +58,7 @@ class Surroundings {
     AnyField field_around(const GridStack& stack, const Frame& frame) const;
     RaySurface rays_around(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame) const;
     void add_occluder(const std::string& file, VoxelizedMesh& input);
-    GridOptions limits() const; ///< of each of them
+    double memory_each() const; ///< bytes that the grids of an occluder may take
 
     std::vector<Occluder> occluders_;
     std::optional<Ground> ground_;

@@ -10,7 +10,7 @@
 namespace alcove::docs {
 namespace {
 
-constexpr float radius = 0.1f;
+constexpr float compared_radius = 0.1f;
 constexpr std::array voxels{64, 96, 128, 256}; // along the diagonal
 
 std::filesystem::path beside(const std::filesystem::path& file) {
@@ -74,10 +74,10 @@ std::string outcome_of(const Run& bake) {
 }
 
 MeasuredChoices::MeasuredChoices(const std::filesystem::path& file)
-    : file_(file), mesh_(file.string(), read_mesh(file)), truth_(make_truth(mesh_, radius)) {
+    : file_(file), mesh_(file.string(), read_mesh(file)), truth_(make_truth(mesh_, compared_radius)) {
     for (const int along : voxels) {
         const float voxel = 1.0f / static_cast<float>(along);
-        grids_.emplace(voxel, build_grid(mesh_, radius, voxel));
+        grids_.emplace(voxel, build_grid(mesh_, compared_radius, voxel));
     }
 }
 
@@ -115,12 +115,12 @@ Comparison MeasuredChoices::compare(double error) const {
     add("calibrated", {10, 24});
     add("guided", {1, 2, 3, 4, 6, 8, 16, 32, 64});
     for (Bake& offer : offers)
-        offer = bake_once(file_, offer.choice, radius);
+        offer = bake_once(file_, offer.choice, compared_radius);
     const Bake& cheapest = *std::min_element(
         offers.begin(), offers.end(), [](const Bake& a, const Bake& b) { return a.seconds < b.seconds; });
     std::vector<Bake> ours;
     const auto t = medians({[&] {
-                                ours.push_back(bake_once(file_, cheapest.choice, radius));
+                                ours.push_back(bake_once(file_, cheapest.choice, compared_radius));
                                 return ours.back().seconds;
                             },
                             [&] {
@@ -130,7 +130,7 @@ Comparison MeasuredChoices::compare(double error) const {
                             },
                             [&] {
                                 return run({ALCOVE_PLAIN_BAKER, file_, beside(file_),
-                                            fmt::format("{}", radius), fmt::format("{}", rays)})
+                                            fmt::format("{}", compared_radius), fmt::format("{}", rays)})
                                     .cpu_seconds;
                             }});
     const auto median =

@@ -1,6 +1,7 @@
 #include "floors.h"
 
 #include "dense_array.h"
+#include "probe_batches.h"
 #include "scan.h"
 #include "timing.h"
 
@@ -14,33 +15,21 @@
 namespace alcove::docs {
 namespace {
 
-constexpr float voxel = 1.0f / 128.0f, step = 0.8f * voxel;
+constexpr float voxel = 1.0f / 128.0f;
 constexpr int probes = 5;
 
 std::string row(std::string_view what, double floor, double ours) {
     return fmt::format("| {} | {:.3g} | {:.3g} | {:.2f} |\n", what, floor, ours, ours / floor);
 }
 
-/// Points at five heights over the surfels, a batch each.
+/// CPU seconds of five probes above each surfel.
 template <class Sample>
-void probe(const std::vector<Surfel>& surfels, const Sample& sample) {
-    SurfelBatch batch;
-    SurfelBatch::Values x, y, z, distances;
-    for (std::size_t begin = 0; begin < surfels.size(); begin += batch.count) {
-        batch.count = 0;
-        for (std::size_t i = begin; i < surfels.size() && batch.count < SurfelBatch::capacity; ++i)
-            batch.push_back(surfels[i]);
-        for (int i = 0; i < probes; ++i) {
-            const float height = step * static_cast<float>(i);
-            for (std::size_t k = 0; k < batch.count; ++k) {
-                x[k] = batch.x[k] + height * batch.nx[k];
-                y[k] = batch.y[k] + height * batch.ny[k];
-                z[k] = batch.z[k] + height * batch.nz[k];
-            }
-            sample(Points{x.data(), y.data(), z.data(), batch.count}, distances.data());
-        }
-        benchmark::DoNotOptimize(distances);
-    }
+double seconds_of_probes(const std::vector<Surfel>& surfels, const Sample& sample) {
+    return warm_cpu_seconds_of([&] {
+        probe_batches(
+            surfels, probes, 0.8f * voxel, sample,
+            [](const SurfelBatch::Values& values, std::size_t) { benchmark::DoNotOptimize(values); });
+    });
 }
 
 std::string files_row(const std::filesystem::path& file) {
@@ -75,21 +64,13 @@ std::string map_row() {
     for (const std::uint32_t i : spatial_order(s.surfels))
         surfels.push_back(s.surfels[i]);
     const DenseArray dense;
-    const auto t = medians({[&] {
-                                return warm_cpu_seconds_of([&] {
-                                    probe(surfels, [&](const Points& points, float* values) {
-                                        for (std::size_t i = 0; i < points.count; ++i)
-                                            values[i] = dense.at((points[i] + 0.5f) / voxel);
-                                    });
-                                });
-                            },
-                            [&] {
-                                return warm_cpu_seconds_of([&] {
-                                    probe(surfels, [&](const Points& points, float* values) {
-                                        field.map(points, 4.0f * voxel, values);
-                                    });
-                                });
-                            }});
+    const auto fetch = [&](const Points& points, float* values) {
+        for (std::size_t i = 0; i < points.count; ++i)
+            values[i] = dense.at((points[i] + 0.5f) / voxel);
+    };
+    const auto map = [&](const Points& points, float* values) { field.map(points, 4.0f * voxel, values); };
+    const auto t = medians(
+        {[&] { return seconds_of_probes(surfels, fetch); }, [&] { return seconds_of_probes(surfels, map); }});
     const double nanoseconds = 1e9 / (static_cast<double>(surfels.size()) * probes);
     return row("map() near a surface, ns, beside a trilinear fetch from a dense array", nanoseconds * t[0],
                nanoseconds * t[1]);

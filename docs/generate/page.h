@@ -11,8 +11,7 @@
 
 namespace alcove::docs {
 
-/// Whole or not at all is not asked of what is generated again, but that a page that cannot be written is said.
-/// \throw IoError
+/// \throw IoError where the file cannot be written.
 inline void write_text(const std::filesystem::path& file, std::string_view text) {
     std::ofstream page(file);
     page << text;

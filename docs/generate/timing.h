@@ -8,7 +8,8 @@
 
 namespace alcove::docs {
 
-/// CPU seconds of all threads of this process, of the second time in a row: the first pays for memory that the machine has taken back meanwhile.
+/// CPU seconds of all threads of this process, of the second time in a row: the first pays for memory that the machine
+/// has taken back meanwhile.
 double warm_cpu_seconds_of(const std::function<void()>& work);
 
 /// Of each, the median of `rounds` in which they take turns. They return what they took.

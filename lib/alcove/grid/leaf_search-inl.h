@@ -47,6 +47,7 @@ struct NearestOfEight {
             take_for(std::countr_zero(wanting), g, voxels);
     }
 
+    /// One of its triangles, whoever wants it.
     HWY_INLINE void take_one(const TriangleGroup& g, std::uint32_t i, const EightPoints& voxels) {
         for (int lane = 0; lane < eight; lane += lanes) {
             const V found = alcove::HWY_NAMESPACE::distance2(g, i, voxels.from(g.origin, lane));
@@ -59,7 +60,7 @@ struct NearestOfEight {
         }
     }
 
-    /// Likewise, for one of the voxels.
+    /// All of them, for one of the voxels.
     HWY_INLINE void take_for(int voxel, const TriangleGroup& g, const EightPoints& voxels) {
         const Vec3v p = voxels.one(g.origin, voxel);
         for (int lane = 0; lane < eight; lane += lanes) {
@@ -80,8 +81,7 @@ class LeafSearch {
         for (int lane = 0; lane < eight; lane += lanes)
             store(voxels.from(Index3(0), lane), voxels_, lane);
         limit_by_points(tree, nodes);
-        constexpr float any = -1.0f; // radius: down to the leaves
-        const auto leaves = sieve.sift(tree, nodes, any, [&](std::uint32_t node) HWY_ATTR {
+        const auto leaves = sieve.sift(tree, nodes, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
             // Its row stands beside its share; without one, the next node takes the row.
             const std::size_t row = sieve.shares().all().size();
             measure(tree.nodes[node], row);

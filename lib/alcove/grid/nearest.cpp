@@ -113,9 +113,8 @@ class BrickSearch {
             }
         };
         const auto wanting = [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree_.nodes[node]); };
-        constexpr float any = -1.0f; // radius: down to the leaves
-        look(sieve_.sift(tree_, first.nodes(), any, wanting));
-        look(sieve_.sift(tree_, nodes, any, [&](std::uint32_t node) HWY_ATTR {
+        look(sieve_.sift(tree_, first.nodes(), down_to_leaves, wanting));
+        look(sieve_.sift(tree_, nodes, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
             return first.has(node) ? 0 : wanting(node); // after the first, little is left of the others
         }));
         triangles_.share_out(wanted_);

@@ -23,7 +23,7 @@ constexpr double bytes_per_triangle = 240.0;
 // All levels together against the finest: 1 + 1/4 + 1/16 + ...
 constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
-constexpr double largest_voxel = 1.0; // none is larger than the diagonal
+constexpr double coarsest_voxel = 1.0; // none is larger than the diagonal
 
 /// Bytes = fixed + by_surface / voxel².
 struct Estimate {
@@ -39,7 +39,7 @@ struct Estimate {
     }
     double bytes(double voxel) const { return fixed + by_surface / (voxel * voxel); }
     double finest(double limit) const {
-        if (!(bytes(largest_voxel) < limit))
+        if (!(bytes(coarsest_voxel) < limit))
             return std::numeric_limits<double>::infinity();
         return std::max(std::sqrt(by_surface / (limit - fixed)), 1.0 / largest_index);
     }
@@ -79,7 +79,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
         throw LimitError(
             fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
                         "fewer triangles, or bake by --method exact, which takes no grid",
-                        triangles.size(), estimate.bytes(largest_voxel) / 1e9, options.memory_limit / 1e9));
+                        triangles.size(), estimate.bytes(coarsest_voxel) / 1e9, options.memory_limit / 1e9));
     if (options.voxel > 0.0f && options.voxel < finest)
         throw LimitError(
             fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "

@@ -51,6 +51,9 @@ class Shares {
     std::size_t count_ = 0;
 };
 
+/// A radius that every node is over, so that none but leaves are picked.
+inline constexpr float down_to_leaves = -1.0f;
+
 /// Picks the wanted ones out of nodes.
 class Sieve {
   public:
