@@ -201,6 +201,7 @@ void print_result(const BakeOptions& options, ChannelSet wanted, const Voxelized
                     {"voxel", or_null(has_grid, baked.grid.voxel)},
                     {"levels", baked.grid.levels},
                     {"sign", or_null(has_grid, name_of(baked.grid.sign))},
+                    {"thinned", or_null(has_grid, baked.grid.thinned)},
                     {"grid_bytes", grid_bytes},
                     {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
                     {"seconds", seconds},
@@ -222,6 +223,7 @@ void run(const BakeOptions& options) {
     grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
         return channel.inside && task.wanted.has(channel.channel);
     });
+    grid_request.thin = options.write_grid.empty(); // one that is kept is exact
     const bool needs_field = task.needs().field;
     VoxelizedMesh input = read_bake_input(
         options.source, grid_request, needs_field || !options.write_grid.empty(), options.common, seconds);
@@ -279,7 +281,11 @@ void add_bake(CLI::App& program) {
     add_grid_options(*verb, options->grid);
     add_bake_input_options(*verb, options->source);
     add_surroundings_options(*verb, options->surroundings);
-    verb->add_option("--write-grid", options->write_grid, "Keep the level sets in a .vdb")->type_name("FILE");
+    verb->add_option("--write-grid", options->write_grid,
+                     "Keep the level sets in a .vdb: of all triangles, where a bake otherwise leaves out "
+                     "what its voxels "
+                     "cannot tell")
+        ->type_name("FILE");
     verb->add_option(
             "--color", options->color,
             "ao: as vertex colours and `quality` too; none. Default: ao, unless the input has either")

@@ -38,6 +38,7 @@ GridStack voxelize_occluder(const Mesh& mesh, std::span<const Triangle> triangle
     VoxelizeOptions options;
     options.grid.radius = static_cast<float>(input.radius * scale);
     options.grid.memory_limit = memory;
+    options.grid.thin = true;
     const float voxel =
         input.stack.levels.empty() ? input.options.grid.voxel : input.stack.levels.front().voxel;
     if (voxel > 0.0f)
@@ -113,7 +114,8 @@ double Surroundings::memory_each() const {
 bool Surroundings::fit() const {
     return std::all_of(occluders_.begin(), occluders_.end(), [&](const Occluder& occluder) {
         return std::isfinite(finest_voxel(surface_area(occluder.mesh, occluder.triangles),
-                                          occluder.triangles.size(), {.memory_limit = memory_each()}));
+                                          occluder.triangles.size(),
+                                          {.thin = true, .memory_limit = memory_each()}));
     });
 }
 

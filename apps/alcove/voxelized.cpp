@@ -48,6 +48,7 @@ void GridFacts::include(const GridFacts& other) {
     voxel = std::max(voxel, other.voxel);
     levels = std::max(levels, other.levels);
     bytes = std::max(bytes, other.bytes);
+    thinned = thinned || other.thinned;
     if (other.sign == Sign::sheet)
         sign = Sign::sheet;
 }
@@ -55,15 +56,15 @@ void GridFacts::include(const GridFacts& other) {
 std::string GridFacts::text() const {
     if (levels == 0)
         return "on the mesh itself";
-    return fmt::format("as a {} of {} level{} from voxel {:.4g}", name_of(sign), levels,
-                       levels == 1 ? "" : "s", voxel);
+    return fmt::format("as a {} of {} level{} from voxel {:.4g}{}", name_of(sign), levels,
+                       levels == 1 ? "" : "s", voxel, thinned ? ", thinned to half of it" : "");
 }
 
 GridFacts facts_of(const GridStack& stack) {
     if (stack.levels.empty())
         return {};
-    return {stack.levels.front().voxel * stack.frame.diagonal, stack.levels.size(), stack.bytes(),
-            stack.sign};
+    return {stack.levels.front().voxel * stack.frame.diagonal, stack.levels.size(), stack.bytes(), stack.sign,
+            stack.thinned};
 }
 
 VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& request,
@@ -84,6 +85,7 @@ VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& requ
     GridOptions& grid = result.options.grid;
     result.options.sign = parse_sign(request.sign);
     grid.outer_band = request.band;
+    grid.thin = request.thin;
     if (request.inside)
         grid.inner_band = request.band;
 

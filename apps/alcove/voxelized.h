@@ -13,6 +13,7 @@ struct GridRequest {
     std::string radius = "10%", voxel = "auto", sign = "auto";
     float band = GridOptions{}.outer_band;
     bool inside = false; ///< the band is as wide behind the surface
+    bool thin = false;   ///< as GridOptions has it
 };
 
 void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& description);
@@ -36,8 +37,9 @@ struct GridFacts {
     double voxel = 0.0; ///< finest, scene units
     std::size_t levels = 0, bytes = 0;
     Sign sign = Sign::solid;
+    bool thinned = false;
 
-    /// The larger of each; a sheet where any is.
+    /// The larger of each; a sheet where any is, thinned where any is.
     void include(const GridFacts& other);
     /// For people.
     std::string text() const;

@@ -14,6 +14,7 @@ set(alcove_internal_headers
     grid/pseudonormals.h
     grid/sieve.h
     grid/solidity.h
+    grid/thinned.h
     grid/triangle_distance-inl.h
     grid/triangle_tree.h
     grid/vdb.h

@@ -74,6 +74,22 @@ TEST_F(BakeGrids, ASavedGridGivesTheBytesOfTheBakeThatSavedIt) {
     }
 }
 
+TEST_F(BakeGrids, ADenseMeshIsThinnedUnlessItsGridIsKept) {
+    write_mesh(sphere_mesh(6), folder_ / "work/sphere.ply");
+    const auto bake = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"bake", "sphere.ply", "-o", "a.ply"});
+        const Outcome outcome = run(more);
+        EXPECT_EQ(outcome.code, done) << outcome.err;
+        return outcome;
+    };
+    EXPECT_TRUE(bake({"--voxel", "5%", "--json"}).json().at("thinned").get<bool>());
+    EXPECT_NE(bake({"--voxel", "5%"}).out.find(", thinned to half of it"), std::string::npos);
+    for (const float ao : read_baked(folder_ / "work/a.ply").ao)
+        EXPECT_NEAR(ao, 1.0f, 0.01f);
+    EXPECT_FALSE(bake({"--voxel", "5%", "--json", "--write-grid", "g.vdb"}).json().at("thinned").get<bool>());
+    EXPECT_FALSE(bake({"--json", "--voxel", "0.5%"}).json().at("thinned").get<bool>());
+}
+
 TEST_F(BakeGrids, AGridOfAnotherFrameServesItsMesh) {
     // The sphere's own grid for one half of it: another box, another diagonal.
     write_sphere(1.0f / 200.0f, 0.2f);

@@ -69,19 +69,43 @@ TEST(Plan, TrianglesThatDoNotFitAreRefused) {
 }
 
 TEST(Plan, AVoxelFitsOrIsRefusedWhateverTheLimit) {
-    const Mesh mesh = test::sphere_mesh(3);
-    std::size_t refused = 0, fitting = 0;
-    for (double limit = 1e5; limit < 1e9; limit *= 1.01)
-        try {
-            const LevelPlan p = plan(mesh, {.memory_limit = limit});
-            EXPECT_LE(p.bytes, limit);
-            EXPECT_LE(p.voxel, 1.0f);
-            ++fitting;
-        } catch (const LimitError&) {
-            ++refused;
+    const Mesh mesh = test::sphere_mesh(5);
+    for (const bool thin : {false, true}) {
+        std::size_t refused = 0, thinned = 0, whole = 0;
+        for (double limit = 1e5; limit < 1e9; limit *= 1.01)
+            try {
+                const LevelPlan p = plan(mesh, {.thin = thin, .memory_limit = limit});
+                EXPECT_LE(p.bytes, limit);
+                EXPECT_LE(p.voxel, 1.0f);
+                ++(p.thin ? thinned : whole);
+            } catch (const LimitError&) {
+                ++refused;
+            }
+        EXPECT_GT(refused, 0u);
+        EXPECT_GT(whole, 0u);
+        EXPECT_EQ(thinned > 0, thin);
+    }
+}
+
+TEST(Plan, FinerVoxelsNeverTakeLess) {
+    const Mesh mesh = test::sphere_mesh(5);
+    for (const bool thin : {false, true}) {
+        double last = 0.0;
+        for (float voxel = 0.5f; voxel > 1e-3f; voxel *= 0.97f) {
+            const double bytes = plan(mesh, {.voxel = voxel, .thin = thin}).bytes;
+            EXPECT_GT(bytes, last);
+            last = bytes;
         }
-    EXPECT_GT(refused, 0u);
-    EXPECT_GT(fitting, 0u);
+    }
+}
+
+TEST(Plan, DenseSurfacesAreThinnedToWhatTheirVoxelsTell) {
+    const GridOptions thin{.thin = true};
+    EXPECT_EQ(triangles_voxelized(1.0, 1'000'000, 0.01, {}), 1e6);
+    EXPECT_LT(triangles_voxelized(1.0, 1'000'000, 0.01, thin), 2e5);
+    EXPECT_EQ(triangles_voxelized(1.0, 10'000'000, 0.01, thin),
+              triangles_voxelized(1.0, 1'000'000, 0.01, thin));
+    EXPECT_EQ(triangles_voxelized(1.0, 1'000'000, 0.004, thin), 1e6);
 }
 
 /// What is promised before allocation holds for what is allocated: grids and bricks fit the estimate, and it

@@ -93,6 +93,7 @@ MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, con
     VoxelizeOptions options;
     options.grid.radius = radius;
     options.grid.voxel = voxel;
+    options.grid.thin = true; // as bakes do
     options.progress = progress;
     const ProcessMeter meter;
     const GridStack stack = voxelize(mesh.mesh, mesh.triangles, options);

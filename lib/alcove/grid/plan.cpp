@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace alcove {
@@ -17,33 +18,63 @@ namespace {
 constexpr float least_outer_band = 3.0f, least_inner_band = 2.0f; // voxels
 
 // Measured peaks of resident memory: of grids and of the bricks of their fields, by voxels of the finest band; of what
-// finds nearest triangles, 130 for solids and 230 for sheets.
+// finds nearest triangles, 130 for solids and 230 for sheets; of what leaves triangles out, 90 where their edges are looked
+// at too.
 constexpr double bytes_per_band_voxel = 60.0;
 constexpr double bytes_per_triangle = 240.0;
+constexpr double bytes_to_thin_a_triangle = 100.0;
+// Triangles that a surface has for each cell of the grid that it is in, area / voxel², once it is thinned; as measured.
+// Thinning pays where that halves them.
+constexpr double thinned_triangles = 12.0;
+constexpr double worth_thinning = 2.0 * thinned_triangles;
 // All levels together against the finest: 1 + 1/4 + 1/16 + ...
 constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
 constexpr double coarsest_voxel = 1.0; // none is larger than the diagonal
 
-/// Bytes = fixed + by_surface / voxel².
+/// Bytes = fixed + by_surface / voxel², where the surface is thinned and where it is not.
 struct Estimate {
-    double fixed, by_surface;
+    double area, triangles;
+    bool may_thin;
+    double least, by_surface;
 
-    Estimate(double area, std::size_t triangles, const GridOptions& options) {
+    Estimate(double surface, std::size_t count, const GridOptions& options)
+        : area(surface), triangles(static_cast<double>(count)), may_thin(options.thin) {
         const double band = 2.0 * std::max(options.outer_band, least_outer_band);
         // A band around a point or a line still fills a ball or a tube: one block of leaves at least.
-        const double least = 4.0 * band * band * band;
-        fixed = levels_over_finest * least * bytes_per_band_voxel +
-                bytes_per_triangle * static_cast<double>(triangles);
+        least = levels_over_finest * 4.0 * band * band * band * bytes_per_band_voxel;
         by_surface = levels_over_finest * area * band * bytes_per_band_voxel;
     }
-    double bytes(double voxel) const { return fixed + by_surface / (voxel * voxel); }
+    bool thins(double voxel) const { return may_thin && triangles * voxel * voxel > worth_thinning * area; }
+    double bytes(double voxel) const {
+        const double whole = least + by_surface / (voxel * voxel);
+        if (!thins(voxel))
+            return whole + bytes_per_triangle * triangles;
+        return whole + bytes_to_thin_a_triangle * triangles +
+               bytes_per_triangle * thinned_triangles * area / (voxel * voxel);
+    }
     double finest(double limit) const {
         if (!(bytes(coarsest_voxel) < limit))
             return std::numeric_limits<double>::infinity();
-        return std::max(std::sqrt(by_surface / (limit - fixed)), 1.0 / largest_index);
+        const auto solved = [&](double fixed, double by_area) {
+            return std::sqrt(by_area / (limit - fixed));
+        };
+        const double of_all = least + bytes_per_triangle * triangles;
+        double voxel = solved(of_all, by_surface);
+        // Below the voxel from which on surfaces are thinned, bytes are more.
+        if (!(of_all < limit) || thins(voxel))
+            voxel = std::max(std::sqrt(worth_thinning * area / triangles),
+                             solved(least + bytes_to_thin_a_triangle * triangles,
+                                    by_surface + bytes_per_triangle * thinned_triangles * area));
+        return std::max(voxel, 1.0 / largest_index);
     }
 };
+
+std::string too_many(std::size_t triangles, double bytes, const GridOptions& options) {
+    return fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
+                       "fewer triangles, or bake by --method exact, which takes no grid",
+                       triangles, bytes / 1e9, options.memory_limit / 1e9);
+}
 
 }
 
@@ -68,18 +99,26 @@ float chosen_voxel(float radius, float largest_voxel) {
     return std::min(std::max(std::min(radius, 1.0f) / 8.0f, 1.0f / 1024.0f), largest_voxel);
 }
 
+double triangles_voxelized(double area, std::size_t triangles, double voxel, const GridOptions& options) {
+    return Estimate(area, triangles, options).thins(voxel) ? thinned_triangles * area / (voxel * voxel)
+                                                           : static_cast<double>(triangles);
+}
+
 double finest_voxel(double area, std::size_t triangles, const GridOptions& options) {
     return Estimate(area, triangles, options).finest(options.memory_limit);
+}
+
+void check_memory(std::size_t triangles, const GridOptions& options) {
+    const double bytes = bytes_per_triangle * static_cast<double>(triangles);
+    if (!(bytes < options.memory_limit))
+        throw LimitError(too_many(triangles, bytes, options));
 }
 
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
     const Estimate estimate(surface_area(mesh, triangles), triangles.size(), options);
     const double finest = estimate.finest(options.memory_limit);
     if (!std::isfinite(finest))
-        throw LimitError(
-            fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
-                        "fewer triangles, or bake by --method exact, which takes no grid",
-                        triangles.size(), estimate.bytes(coarsest_voxel) / 1e9, options.memory_limit / 1e9));
+        throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));
     if (options.voxel > 0.0f && options.voxel < finest)
         throw LimitError(
             fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
@@ -92,6 +131,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
     plan.voxel = options.voxel > 0.0f ? options.voxel
                                       : std::max(chosen_voxel(options.radius, options.largest_voxel),
                                                  std::nextafter(static_cast<float>(finest), 1.0f));
+    plan.thin = estimate.thins(plan.voxel);
     plan.bytes = estimate.bytes(plan.voxel);
 
     const float reach = std::min(options.radius, 1.0f);

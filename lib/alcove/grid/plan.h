@@ -19,6 +19,9 @@ struct GridOptions {
     float outer_band = 5.0f;
     /// Voxels inward on every level of a solid, at least 2. Occlusion never looks deeper.
     float inner_band = 2.0f;
+    /// Where triangles are far smaller than voxels, the grids are of fewer, within a voxel of them: half a voxel times √3
+    /// at most, a few hundredths of one as a rule.
+    bool thin = false;
     /// Bytes that grids and what builds them may take.
     double memory_limit = 4.0 * (1u << 30);
 };
@@ -27,11 +30,18 @@ struct LevelPlan {
     float voxel = 0.0f; ///< finest, unit space
     int levels = 1;
     float outer_band = 0.0f, inner_band = 0.0f;
+    bool thin = false;  ///< there are enough triangles for GridOptions::thin to take effect
     double bytes = 0.0; ///< estimate of the peak while building
 };
 
 /// Of the triangles, in the unit space of the mesh's own box.
 double surface_area(const Mesh& mesh, std::span<const Triangle> triangles);
+
+/// Cubes within which vertices become one where a surface is thinned, voxels.
+inline constexpr double thinned_cell = 0.5;
+
+/// How many triangles are voxelized after some are left out as GridOptions::thin has it. `area` as surface_area() has it.
+double triangles_voxelized(double area, std::size_t triangles, double voxel, const GridOptions& options);
 
 /// The finest voxel that is taken where none is asked for, unit space, unless memory asks for a larger one.
 float chosen_voxel(float radius, float largest_voxel);
@@ -39,6 +49,10 @@ float chosen_voxel(float radius, float largest_voxel);
 /// The finest voxel whose grids and what builds them fit the memory limit, unit space; infinite where the triangles alone
 /// do not. `area` as surface_area() has it.
 double finest_voxel(double area, std::size_t triangles, const GridOptions& options);
+
+/// \throw LimitError if a surface of so many triangles leaves no room for its grids: one that is thinned less than
+/// plan_levels() expected, because its triangles do not share their vertices.
+void check_memory(std::size_t triangles, const GridOptions& options);
 
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
 /// from area / voxel². A voxel of 0 is coarsened until it fits.

@@ -3,6 +3,7 @@
 #include "alcove/errors.h"
 #include "alcove/grid/level_set.h"
 #include "alcove/grid/solidity.h"
+#include "alcove/grid/thinned.h"
 #include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
@@ -31,8 +32,8 @@ HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Ve
     return positions;
 }
 
-TriangleTree tree_of(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
-    const GroupedPieces pieces(positions, triangles);
+TriangleTree tree_of(const Surface& surface) {
+    const GroupedPieces pieces(surface.positions, surface.triangles);
     if (pieces.count() == 0)
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
     return TriangleTree(pieces);
@@ -48,8 +49,17 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(box, stack.frame, plan);
     const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
-    const TriangleTree tree = tree_of(positions, triangles);
+    // What is inside is asked of all triangles, how far the surface is of those that are kept.
+    const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
+    std::optional<ThinnedSurface> thinned;
+    if (plan.thin) {
+        thinned.emplace(whole, thinned_cell);
+        check_memory(thinned->surface().triangles.size(), options.grid);
+        stack.thinned = true;
+    }
+    const Surface near = thinned ? thinned->surface() : whole;
+    const TriangleTree tree = tree_of(near);
 
     if (plan.voxel > 0.25f * options.grid.radius)
         stack.warnings.push_back(fmt::format(
@@ -64,7 +74,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.sign = choose_sign(options.sign, mesh, columns, positions, triangles, stack.warnings);
     std::optional<Pseudonormals> normals;
     if (stack.sign == Sign::sheet)
-        normals.emplace(positions, triangles);
+        normals.emplace(near.positions, near.triangles);
     const Band band = normals ? Band(tree, *normals, plan.outer_band)
                               : Band(tree, columns, {plan.outer_band, plan.inner_band});
     done(0.3);

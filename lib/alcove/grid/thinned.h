@@ -1,0 +1,34 @@
+/// A dense surface with fewer triangles. Internal to grid/.
+#pragma once
+
+#include "alcove/huge_pages.h"
+#include "alcove/mesh/mesh.h"
+
+#include <span>
+
+namespace alcove {
+
+struct Surface {
+    std::span<const Vec3d> positions;
+    std::span<const Triangle> triangles;
+};
+
+/// Makes one vertex of those that lie in one cube of side `cell` and hang together there by edges, at their mean, and
+/// leaves out triangles of which two corners become one: after J. Rossignac and P. Borrel, "Multi-resolution 3D
+/// approximations for rendering complex scenes" (1993), who do not ask whether they hang together: the two sides of a thin
+/// wall would become one. Where nothing but such triangles meet, in spikes, in parts smaller than a cube, and where
+/// neighbours do not share their vertices, they stay as they were. No point of the surface moves further than √3 cells, and
+/// triangles turn as before. The result does not depend on the number of threads. Cost: about 20 ns a triangle.
+class ThinnedSurface {
+  public:
+    /// \pre positions from 0 to below 2^21 cells, where they are finite
+    ThinnedSurface(const Surface& surface, double cell);
+
+    Surface surface() const { return {positions_, triangles_}; }
+
+  private:
+    HugeVector<Vec3d> positions_;
+    HugeVector<Triangle> triangles_;
+};
+
+}
