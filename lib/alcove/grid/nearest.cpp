@@ -18,17 +18,17 @@ namespace alcove {
 namespace HWY_NAMESPACE {
 
 /// The centres of the octants, themselves voxels where the block is of 2³.
-EightPoints octants_of(const Block& block) {
+HWY_INLINE EightPoints octants_of(const Block& block) {
     const int size = block.size / 2;
     return {(2 * block.low + (size - 1)) * block.stride, 2 * size * block.stride};
 }
 
-float half_of(const Block& block) {
+HWY_INLINE float half_of(const Block& block) {
     return 0.5f * static_cast<float>((block.size / 2 - 1) * block.stride);
 }
 
-Octants known_octants(const TriangleTree& tree, const Block& block, const float (&reach)[eight],
-                      const NearestNodes& nearest) {
+HWY_INLINE Octants known_octants(const TriangleTree& tree, const Block& block, const float (&reach)[eight],
+                                 const NearestNodes& nearest) {
     float limits[eight];
     for (int i = 0; i < eight; ++i)
         limits[i] = reach[i] < 0.0f ? -1.0f : (reach[i] + diagonal * half_of(block)) * slack;
@@ -50,16 +50,25 @@ void split_once(const TriangleTree& tree, std::span<const std::uint32_t> nodes, 
     split_block(tree, nodes, block, alike, sieve, parts);
 }
 
-Index3 octant(const Index3& low, int size, int i) {
+HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
     return low + size * Index3(i >> 2, i >> 1 & 1, i & 1);
 }
+
+/// What the search of a brick fills anew, kept from one to the next: to ask for memory takes longer than to fill it.
+struct Workspace {
+    std::array<std::array<Nodes, eight>, 2> parts; // of blocks of 4³ and of the brick
+    Sieve sieve;
+    LeafSearch leaves;
+    Shares triangles;
+    std::array<Nodes, eight> wanted; // triangles: eight times the group, plus the slot
+};
 
 /// The voxels of a brick, from its nodes down.
 class BrickSearch {
   public:
     BrickSearch(const TriangleTree& tree, const Block& brick, const BrickLimits& limits,
-                NearestTriangles& nearest)
-        : tree_(tree), brick_(brick), limits_(limits), nearest_(nearest) {
+                NearestTriangles& nearest, Workspace& work)
+        : tree_(tree), brick_(brick), limits_(limits), nearest_(nearest), work_(work) {
         for (std::size_t row = 0; row < brick_rows; ++row) {
             unsigned bits = 0;
             for (unsigned z = 0; z < brick_size; ++z)
@@ -72,7 +81,7 @@ class BrickSearch {
         const Block block{brick_.low + low, size, brick_.stride};
         if (size == 2) {
             NearestOfEight best(reach_of(low, size), needed(low));
-            leaves_.take_nearest(tree_, nodes, octants_of(block), sieve_, best);
+            work_.leaves.take_nearest(tree_, nodes, octants_of(block), work_.sieve, best);
             return keep(best, low);
         }
         float reach[eight];
@@ -80,8 +89,8 @@ class BrickSearch {
             reach[i] = reach_of(octant(low, size / 2, i), size / 2);
         if (size == 4 && nodes.size() <= few_nodes && are_leaves(nodes))
             return search_by_triangle(nodes, block, low, reach);
-        std::array<Nodes, eight>& parts = parts_[size == brick_size];
-        split_block(tree_, nodes, block, reach, sieve_, parts);
+        std::array<Nodes, eight>& parts = work_.parts[size == brick_size];
+        split_block(tree_, nodes, block, reach, work_.sieve, parts);
         for (int i = 0; i < eight; ++i)
             if (const Nodes& part = parts[static_cast<std::size_t>(i)]; !part.empty())
                 search(part, octant(low, size / 2, i), size / 2);
@@ -102,24 +111,24 @@ class BrickSearch {
                             const float (&reach)[eight]) {
         const NearestNodes first(tree_, nodes, octants_of(block));
         Octants octants = known_octants(tree_, block, reach, first);
-        triangles_.clear();
+        work_.triangles.clear();
         const auto look = [&](std::span<const Shares::Share> shares) HWY_ATTR {
             for (const auto& [node, bits] : shares) {
                 const std::uint32_t child = tree_.nodes[node].child;
                 const TriangleGroup& g = tree_.triangles[child];
-                triangles_.make_room(eight);
+                work_.triangles.make_room(eight);
                 for (std::uint32_t i = 0; i < g.count; ++i)
-                    triangles_.add(eight * child + i, octants.look(g, i));
+                    work_.triangles.add(eight * child + i, octants.look(g, i));
             }
         };
         const auto wanting = [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree_.nodes[node]); };
-        look(sieve_.sift(tree_, first.nodes(), down_to_leaves, wanting));
-        look(sieve_.sift(tree_, nodes, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
+        look(work_.sieve.sift(tree_, first.nodes(), down_to_leaves, wanting));
+        look(work_.sieve.sift(tree_, nodes, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
             return first.has(node) ? 0 : wanting(node); // after the first, little is left of the others
         }));
-        triangles_.share_out(wanted_);
+        work_.triangles.share_out(work_.wanted);
         for (int i = 0; i < eight; ++i) {
-            const auto& part = wanted_[static_cast<std::size_t>(i)];
+            const auto& part = work_.wanted[static_cast<std::size_t>(i)];
             if (part.empty())
                 continue;
             const Index3 at = octant(low, 2, i);
@@ -177,17 +186,14 @@ class BrickSearch {
     const Block brick_;
     const BrickLimits limits_;
     NearestTriangles& nearest_;
-    std::array<std::uint8_t, brick_rows> known_;    // a bit a voxel, as limits_.rows
-    std::array<std::array<Nodes, eight>, 2> parts_; // of blocks of 4³ and of the brick
-    Sieve sieve_;
-    LeafSearch leaves_;
-    Shares triangles_;
-    std::array<Nodes, eight> wanted_; // triangles: eight times the group, plus the slot
+    std::array<std::uint8_t, brick_rows> known_; // a bit a voxel, as limits_.rows
+    Workspace& work_;
 };
 
 void nearest_in_brick(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
                       const BrickLimits& limits, NearestTriangles& nearest) {
-    BrickSearch(tree, brick, limits, nearest).search(nodes, Index3(0), brick_size);
+    thread_local Workspace work;
+    BrickSearch(tree, brick, limits, nearest, work).search(nodes, Index3(0), brick_size);
 }
 
 }
