@@ -9,10 +9,11 @@
 #define ALCOVE_GRID_LEAF_SEARCH_INL_H
 #endif
 
+#include "alcove/grid/nearest_of_eight-inl.h"
+#include "alcove/grid/octant_search-inl.h"
 #include "alcove/grid/octants-inl.h"
 #include "alcove/grid/sieve.h"
 
-#include <bit>
 #include <limits>
 #include <span>
 #include <vector>
@@ -20,58 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace alcove {
 namespace HWY_NAMESPACE {
-
-/// The best of what was looked at from eight voxels.
-struct NearestOfEight {
-    static constexpr std::uint32_t none = UINT32_MAX;
-    alignas(64) float distance2[eight];
-    alignas(64) std::uint32_t triangle[eight];
-
-    /// Only what is nearer than the limit, and nothing where there is no need.
-    NearestOfEight(float limit, std::uint32_t needed) {
-        for (int i = 0; i < eight; ++i) {
-            distance2[i] = (needed >> i & 1) != 0 ? limit * limit : -1.0f;
-            triangle[i] = none;
-        }
-    }
-
-    /// All triangles of a group, where the bits of `wanting` name voxels that may be nearer to it than to others.
-    void take(const TriangleGroup& g, std::uint32_t wanting, const EightPoints& voxels) {
-        // One triangle and eight voxels at a time, or eight triangles where few voxels want them.
-        if (static_cast<std::uint32_t>(std::popcount(wanting)) > (g.count + 1) / 2) {
-            for (std::uint32_t i = 0; i < g.count; ++i)
-                take_one(g, i, voxels);
-            return;
-        }
-        for (; wanting != 0; wanting &= wanting - 1)
-            take_for(std::countr_zero(wanting), g, voxels);
-    }
-
-    /// One of its triangles, whoever wants it.
-    HWY_INLINE void take_one(const TriangleGroup& g, std::uint32_t i, const EightPoints& voxels) {
-        for (int lane = 0; lane < eight; lane += lanes) {
-            const V found = alcove::HWY_NAMESPACE::distance2(g, i, voxels.from(g.origin, lane));
-            const V best = hn::Load(d, distance2 + lane);
-            const M nearer = hn::Lt(found, best);
-            hn::Store(hn::IfThenElse(nearer, found, best), d, distance2 + lane);
-            hn::Store(hn::IfThenElse(hn::RebindMask(du, nearer), hn::Set(du, g.triangle[i]),
-                                     hn::Load(du, triangle + lane)),
-                      du, triangle + lane);
-        }
-    }
-
-    /// All of them, for one of the voxels.
-    HWY_INLINE void take_for(int voxel, const TriangleGroup& g, const EightPoints& voxels) {
-        const Vec3v p = voxels.one(g.origin, voxel);
-        for (int lane = 0; lane < eight; lane += lanes) {
-            const V found = distances2(g, lane, p), least = hn::MinOfLanes(d, found);
-            if (hn::GetLane(least) < distance2[voxel]) {
-                distance2[voxel] = hn::GetLane(least);
-                triangle[voxel] = g.triangle[lane + hn::FindFirstTrue(d, hn::Eq(found, least))];
-            }
-        }
-    }
-};
 
 /// Looks for what is nearest to eight voxels in the leaves below some nodes, the most promising first.
 class LeafSearch {
@@ -89,24 +38,36 @@ class LeafSearch {
         });
         if (leaves.empty())
             return;
-        const auto group = [&](std::size_t leaf) -> const TriangleGroup& {
-            return tree.triangles[tree.nodes[leaves[leaf].what].child];
-        };
+        const auto group = [&](std::size_t leaf) { return tree.nodes[leaves[leaf].what].child; };
         find_nearest(leaves.size());
+        search_.begin(voxels);
         for (int i = 0; i < eight; ++i)
-            if (float& least2 = rows_[nearest_[i]].least2[i]; least2 <= best.distance2[i]) {
-                best.take_for(i, group(nearest_[i]), voxels);
-                least2 = std::numeric_limits<float>::infinity(); // for that one it is done
+            if (Row& row = rows_[nearest_[i]]; row.least2[i] <= best.distance2[i]) {
+                search_.look(tree, group(nearest_[i]));
+                search_.take_nearest(tree, best);
+                row = done;
             }
-        for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
-            if (const std::uint32_t bits = wanting(best, leaf); bits != 0)
-                best.take(group(leaf), bits, voxels);
+        for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
+            std::uint32_t bits = wanting(best, leaf);
+            if (std::popcount(bits) > few) {
+                search_.look(tree, group(leaf));
+                continue;
+            }
+            for (; bits != 0; bits &= bits - 1)
+                best.take_for(std::countr_zero(bits), tree.triangles[group(leaf)], voxels);
+        }
+        search_.take_others(tree, best);
     }
 
   private:
     struct Row {
         alignas(4 * eight) float least2[eight];
     };
+    static constexpr float never = std::numeric_limits<float>::infinity();
+    static constexpr Row done{{never, never, never, never, never, never, never, never}};
+    // Voxels that one after the other are measured from a group in the time that it takes to look at it from their
+    // centre and to measure from what that leaves of it.
+    static constexpr int few = 3;
 
     void limit_by_points(const TriangleTree& tree, std::span<const std::uint32_t> nodes) {
         for (int lane = 0; lane < eight; lane += lanes) {
@@ -153,7 +114,8 @@ class LeafSearch {
 
     alignas(64) float voxels_[3][eight];
     alignas(64) float points_[eight]; // squared distances of the nearest points that are known of the surface
-    std::vector<Row> rows_;           // a leaf each: squared distances that it has at least
+    OctantSearch search_;
+    std::vector<Row> rows_;                    // a leaf each: squared distances that it has at least
     alignas(64) std::uint32_t nearest_[eight]; // rows
 };
 

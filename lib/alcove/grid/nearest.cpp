@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h> // compiles this file once a target
 
 #include "alcove/grid/leaf_search-inl.h"
+#include "alcove/grid/octant_search-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -59,8 +60,8 @@ struct Workspace {
     std::array<std::array<Nodes, eight>, 2> parts; // of blocks of 4³ and of the brick
     Sieve sieve;
     LeafSearch leaves;
-    Shares triangles;
-    std::array<Nodes, eight> wanted; // triangles: eight times the group, plus the slot
+    std::array<OctantSearch, eight> octants; // of a block of 4³
+    std::array<Nodes, eight> wanted;
 };
 
 /// The voxels of a brick, from its nodes down.
@@ -87,8 +88,8 @@ class BrickSearch {
         float reach[eight];
         for (int i = 0; i < eight; ++i)
             reach[i] = reach_of(octant(low, size / 2, i), size / 2);
-        if (size == 4 && nodes.size() <= few_nodes && are_leaves(nodes))
-            return search_by_triangle(nodes, block, low, reach);
+        if (size == 4 && are_leaves(nodes))
+            return search_by_octant(nodes, block, low, reach);
         std::array<Nodes, eight>& parts = work_.parts[size == brick_size];
         split_block(tree_, nodes, block, reach, work_.sieve, parts);
         for (int i = 0; i < eight; ++i)
@@ -97,45 +98,37 @@ class BrickSearch {
     }
 
   private:
-    // More than this are of several triangles a voxel: to choose among nodes costs less there than among triangles.
-    // Measured on a scan with 1 to 28 of them. Nodes that are no leaves may hold far more triangles: on the coarsest
-    // levels few hold the whole surface.
-    static constexpr std::size_t few_nodes = 64;
-
     bool are_leaves(std::span<const std::uint32_t> nodes) const {
         return std::all_of(nodes.begin(), nodes.end(),
                            [&](std::uint32_t node) { return node < tree_.leaves; });
     }
 
-    void search_by_triangle(std::span<const std::uint32_t> nodes, const Block& block, const Index3& low,
-                            const float (&reach)[eight]) {
-        const NearestNodes first(tree_, nodes, octants_of(block));
+    void search_by_octant(std::span<const std::uint32_t> leaves, const Block& block, const Index3& low,
+                          const float (&reach)[eight]) {
+        const NearestNodes first(tree_, leaves, octants_of(block));
         Octants octants = known_octants(tree_, block, reach, first);
-        work_.triangles.clear();
-        const auto look = [&](std::span<const Shares::Share> shares) HWY_ATTR {
-            for (const auto& [node, bits] : shares) {
-                const std::uint32_t child = tree_.nodes[node].child;
-                const TriangleGroup& g = tree_.triangles[child];
-                work_.triangles.make_room(eight);
-                for (std::uint32_t i = 0; i < g.count; ++i)
-                    work_.triangles.add(eight * child + i, octants.look(g, i));
-            }
-        };
-        const auto wanting = [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree_.nodes[node]); };
-        look(work_.sieve.sift(tree_, first.nodes(), down_to_leaves, wanting));
-        look(work_.sieve.sift(tree_, nodes, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
-            return first.has(node) ? 0 : wanting(node); // after the first, little is left of the others
-        }));
-        work_.triangles.share_out(work_.wanted);
+        Vec3 ways[eight];
         for (int i = 0; i < eight; ++i) {
-            const auto& part = work_.wanted[static_cast<std::size_t>(i)];
-            if (part.empty())
+            OctantSearch& search = work_.octants[static_cast<std::size_t>(i)];
+            search.begin(octants_of({brick_.low + octant(low, 2, i), 2, brick_.stride}));
+            search.look(tree_, tree_.nodes[first.node[i]].child);
+            octants.know(i, ways[i] = search.way());
+        }
+        work_.sieve.sift(tree_, leaves, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
+            return octants.wanting(tree_.nodes[node]) & ~first.bits(node);
+        });
+        work_.sieve.shares().share_out(work_.wanted);
+        for (int i = 0; i < eight; ++i) {
+            const Nodes& wanted = work_.wanted[static_cast<std::size_t>(i)];
+            if (wanted.empty() && !octants.reaches(i, ways[i]))
                 continue;
             const Index3 at = octant(low, 2, i);
-            const EightPoints voxels = octants_of({brick_.low + at, 2, brick_.stride});
             NearestOfEight best(reach[i], needed(at));
-            for (const std::uint32_t t : part)
-                best.take_one(tree_.triangles[t / eight], t % eight, voxels);
+            OctantSearch& search = work_.octants[static_cast<std::size_t>(i)];
+            search.take_nearest(tree_, best);
+            for (const std::uint32_t leaf : wanted)
+                search.look(tree_, tree_.nodes[leaf].child);
+            search.take_others(tree_, best);
             keep(best, at);
         }
     }

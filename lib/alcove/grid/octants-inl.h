@@ -102,24 +102,15 @@ class NearestNodes {
             hn::Store(best, d, distance2 + lane);
             hn::Store(nearest, du, node + lane);
         }
-        for (const std::uint32_t n : node)
-            if (std::find(distinct_, distinct_ + count_, n) == distinct_ + count_)
-                distinct_[count_++] = n;
     }
 
-    /// Each once.
-    std::span<const std::uint32_t> nodes() const { return {distinct_, count_}; }
-
-    HWY_INLINE bool has(std::uint32_t n) const {
-        bool found = false;
+    /// The points that a node is of, a bit each.
+    HWY_INLINE std::uint32_t bits(std::uint32_t n) const {
+        std::uint32_t found = 0;
         for (int lane = 0; lane < eight; lane += lanes)
-            found |= !hn::AllFalse(du, hn::Eq(hn::Set(du, n), hn::Load(du, node + lane)));
+            found |= bits_of(hn::RebindMask(d, hn::Eq(hn::Set(du, n), hn::Load(du, node + lane)))) << lane;
         return found;
     }
-
-  private:
-    std::uint32_t distinct_[eight];
-    std::size_t count_ = 0;
 };
 
 /// What is known about the surface nearest to the centres of the octants of a block, which tells what cannot be
@@ -152,19 +143,18 @@ class Octants {
         return wanted;
     }
 
-    /// Likewise of a triangle, which is known from now on.
-    HWY_INLINE std::uint32_t look(const TriangleGroup& g, std::uint32_t i) {
-        std::uint32_t wanted = 0;
-        for (int lane = 0; lane < eight; lane += lanes) {
-            const Vec3v way = way_from(g, i, centres_.from(g.origin, lane));
-            const V found = length2(way), best = hn::Load(d, distance2_ + lane);
-            const M nearer = hn::Lt(found, best);
-            hn::Store(hn::IfThenElse(nearer, found, best), d, distance2_ + lane);
-            store(choose(nearer, way, load(way_, lane)), way_, lane);
-            wanted |= wanting(way, lane) << lane;
-        }
-        return wanted;
+    /// A way to a centre from some point of the surface.
+    void know(int octant, const Vec3& way) {
+        const float distance2 = glm::dot(way, way);
+        if (distance2 >= distance2_[octant])
+            return;
+        distance2_[octant] = distance2;
+        for (int axis = 0; axis < 3; ++axis)
+            way_[axis][octant] = way[axis];
     }
+
+    /// Whether a voxel of the octant may be as near as wanted to something that the way to its centre is from.
+    bool reaches(int octant, const Vec3& way) const { return glm::dot(way, way) <= most_[octant]; }
 
   private:
     /// By the way w to the centre c from the nearest point of something convex. Its squared distance from a voxel v
