@@ -65,11 +65,6 @@ HWY_INLINE Vec3v less(const Vec3v& a, V s, const Vec3v& b) {
     return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
 }
 
-HWY_INLINE Vec3v choose(M mask, const Vec3v& yes, const Vec3v& no) {
-    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-            hn::IfThenElse(mask, yes.z, no.z)};
-}
-
 HWY_INLINE V sum_of_sizes(const Vec3v& v) {
     return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }

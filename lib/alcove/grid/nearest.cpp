@@ -36,12 +36,18 @@ HWY_INLINE Octants known_octants(const TriangleTree& tree, const Block& block, c
     return {tree, octants_of(block), half_of(block), limits, nearest};
 }
 
-void split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
-                 const float (&reach)[eight], Sieve& sieve, std::array<Nodes, eight>& parts) {
-    const Octants octants = known_octants(tree, block, reach, NearestNodes(tree, nodes, octants_of(block)));
+HWY_INLINE void split_nodes(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
+                            const Block& block, const Octants& octants, Sieve& sieve,
+                            std::array<Nodes, eight>& parts) {
     sieve.sift(tree, nodes, diagonal * half_of(block),
                [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree.nodes[node]); });
     sieve.shares().share_out(parts);
+}
+
+void split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
+                 const float (&reach)[eight], Sieve& sieve, std::array<Nodes, eight>& parts) {
+    const NearestNodes near(tree, nodes, octants_of(block));
+    split_nodes(tree, nodes, block, known_octants(tree, block, reach, near), sieve, parts);
 }
 
 void split_once(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
@@ -57,11 +63,11 @@ HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
 
 /// What the search of a brick fills anew, kept from one to the next: to ask for memory takes longer than to fill it.
 struct Workspace {
-    std::array<std::array<Nodes, eight>, 2> parts; // of blocks of 4³ and of the brick
+    std::array<Nodes, eight> parts; // of the brick
     Sieve sieve;
     LeafSearch leaves;
     std::array<OctantSearch, eight> octants; // of a block of 4³
-    std::array<Nodes, eight> wanted;
+    std::array<Nodes, eight> wanted;         // by them
 };
 
 /// The voxels of a brick, from its nodes down.
@@ -78,59 +84,65 @@ class BrickSearch {
         }
     }
 
-    void search(std::span<const std::uint32_t> nodes, const Index3& low, int size) {
-        const Block block{brick_.low + low, size, brick_.stride};
-        if (size == 2) {
-            NearestOfEight best(reach_of(low, size), needed(low));
-            work_.leaves.take_nearest(tree_, nodes, octants_of(block), work_.sieve, best);
-            return keep(best, low);
-        }
+    void search(std::span<const std::uint32_t> nodes) {
         float reach[eight];
+        reach_of_octants(Index3(0), brick_size, reach);
+        split_block(tree_, nodes, brick_, reach, work_.sieve, work_.parts);
         for (int i = 0; i < eight; ++i)
-            reach[i] = reach_of(octant(low, size / 2, i), size / 2);
-        if (size == 4 && are_leaves(nodes))
-            return search_by_octant(nodes, block, low, reach);
-        std::array<Nodes, eight>& parts = work_.parts[size == brick_size];
-        split_block(tree_, nodes, block, reach, work_.sieve, parts);
-        for (int i = 0; i < eight; ++i)
-            if (const Nodes& part = parts[static_cast<std::size_t>(i)]; !part.empty())
-                search(part, octant(low, size / 2, i), size / 2);
+            if (const Nodes& part = work_.parts[static_cast<std::size_t>(i)]; !part.empty())
+                search_octants(part, octant(Index3(0), brick_size / 2, i));
     }
 
   private:
-    bool are_leaves(std::span<const std::uint32_t> nodes) const {
-        return std::all_of(nodes.begin(), nodes.end(),
-                           [&](std::uint32_t node) { return node < tree_.leaves; });
-    }
-
-    void search_by_octant(std::span<const std::uint32_t> leaves, const Block& block, const Index3& low,
-                          const float (&reach)[eight]) {
-        const NearestNodes first(tree_, leaves, octants_of(block));
-        Octants octants = known_octants(tree_, block, reach, first);
-        Vec3 ways[eight];
+    /// Those of a block of 4³.
+    void search_octants(std::span<const std::uint32_t> nodes, const Index3& low) {
+        const Block block{brick_.low + low, brick_size / 2, brick_.stride};
+        float reach[eight];
+        reach_of_octants(low, block.size, reach);
+        const EightPoints centres = octants_of(block);
+        const NearestNodes near(tree_, nodes, centres);
+        Octants octants = known_octants(tree_, block, reach, near);
+        std::uint32_t first[eight];
+        EightPoints voxels[eight];
         for (int i = 0; i < eight; ++i) {
+            if (reach[i] < 0.0f)
+                continue;
+            voxels[i] = octants_of({octant(block.low, 2, i), 2, block.stride});
+            first[i] = leaf_near(tree_, near.node[i], centres.point(i));
             OctantSearch& search = work_.octants[static_cast<std::size_t>(i)];
-            search.begin(octants_of({brick_.low + octant(low, 2, i), 2, brick_.stride}));
-            search.look(tree_, tree_.nodes[first.node[i]].child);
-            octants.know(i, ways[i] = search.way());
+            search.begin(voxels[i]);
+            search.look(tree_, tree_.nodes[first[i]].child);
+            octants.know(i, search.way());
         }
-        work_.sieve.sift(tree_, leaves, down_to_leaves, [&](std::uint32_t node) HWY_ATTR {
-            return octants.wanting(tree_.nodes[node]) & ~first.bits(node);
-        });
-        work_.sieve.shares().share_out(work_.wanted);
+        split_nodes(tree_, nodes, block, octants, work_.sieve, work_.wanted);
         for (int i = 0; i < eight; ++i) {
             const Nodes& wanted = work_.wanted[static_cast<std::size_t>(i)];
-            if (wanted.empty() && !octants.reaches(i, ways[i]))
+            if (wanted.empty())
                 continue;
             const Index3 at = octant(low, 2, i);
             NearestOfEight best(reach[i], needed(at));
             OctantSearch& search = work_.octants[static_cast<std::size_t>(i)];
             search.take_nearest(tree_, best);
-            for (const std::uint32_t leaf : wanted)
-                search.look(tree_, tree_.nodes[leaf].child);
+            if (are_few_leaves(wanted))
+                for (const std::uint32_t leaf : wanted) {
+                    if (leaf != first[i])
+                        search.look(tree_, tree_.nodes[leaf].child);
+                }
+            else
+                work_.leaves.look(tree_, wanted, first[i], voxels[i], work_.sieve, search, best);
             search.take_others(tree_, best);
             keep(best, at);
         }
+    }
+
+    // To choose among no more than this costs more than to look at all of them. Measured on a scan with 1 to 28
+    // triangles a voxel. Nodes that are no leaves may hold far more: on the coarsest levels few hold the whole surface.
+    static constexpr std::size_t few_leaves = 48;
+
+    bool are_few_leaves(std::span<const std::uint32_t> nodes) const {
+        return nodes.size() <= few_leaves && std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) {
+                   return node < tree_.leaves;
+               });
     }
 
     void keep(const NearestOfEight& best, const Index3& low) {
@@ -151,6 +163,11 @@ class BrickSearch {
         for (int i = 0; i < eight; ++i)
             bits |= std::uint32_t{!std::isfinite(nearest_.distance2[voxel_of(octant(low, 1, i))])} << i;
         return bits;
+    }
+
+    void reach_of_octants(const Index3& low, int size, float (&reach)[eight]) const {
+        for (int i = 0; i < eight; ++i)
+            reach[i] = reach_of(octant(low, size / 2, i), size / 2);
     }
 
     /// The furthest that a voxel of a block of 2³ or 4³ looks; below 0 where none has to.
@@ -186,7 +203,7 @@ class BrickSearch {
 void nearest_in_brick(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
                       const BrickLimits& limits, NearestTriangles& nearest) {
     thread_local Workspace work;
-    BrickSearch(tree, brick, limits, nearest, work).search(nodes, Index3(0), brick_size);
+    BrickSearch(tree, brick, limits, nearest, work).search(nodes);
 }
 
 }

@@ -14,6 +14,7 @@
 
 #include <bit>
 #include <limits>
+#include <span>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();

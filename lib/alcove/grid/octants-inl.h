@@ -11,7 +11,6 @@
 
 #include "alcove/grid/triangle_distance-inl.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -58,6 +57,8 @@ struct EightPoints {
     Index3 twice;
     int twice_apart;
 
+    Vec3 point(int i) const { return 0.5f * Vec3(twice + twice_apart * Index3(i >> 2, i >> 1 & 1, i & 1)); }
+
     /// From a voxel to the i-th.
     Vec3v one(const Index3& origin, int i) const {
         const float apart = 0.5f * static_cast<float>(twice_apart);
@@ -103,14 +104,6 @@ class NearestNodes {
             hn::Store(nearest, du, node + lane);
         }
     }
-
-    /// The points that a node is of, a bit each.
-    HWY_INLINE std::uint32_t bits(std::uint32_t n) const {
-        std::uint32_t found = 0;
-        for (int lane = 0; lane < eight; lane += lanes)
-            found |= bits_of(hn::RebindMask(d, hn::Eq(hn::Set(du, n), hn::Load(du, node + lane)))) << lane;
-        return found;
-    }
 };
 
 /// What is known about the surface nearest to the centres of the octants of a block, which tells what cannot be
@@ -152,9 +145,6 @@ class Octants {
         for (int axis = 0; axis < 3; ++axis)
             way_[axis][octant] = way[axis];
     }
-
-    /// Whether a voxel of the octant may be as near as wanted to something that the way to its centre is from.
-    bool reaches(int octant, const Vec3& way) const { return glm::dot(way, way) <= most_[octant]; }
 
   private:
     /// By the way w to the centre c from the nearest point of something convex. Its squared distance from a voxel v
