@@ -9,6 +9,8 @@ set(alcove_internal_headers
     grid/level_set.h
     grid/lanes-inl.h
     grid/nearest.h
+    grid/nearest_of_eight-inl.h
+    grid/octant_search-inl.h
     grid/octants-inl.h
     grid/pieces.h
     grid/pseudonormals.h
@@ -16,6 +18,7 @@ set(alcove_internal_headers
     grid/solidity.h
     grid/thinned.h
     grid/triangle_distance-inl.h
+    grid/triangle_group.h
     grid/triangle_tree.h
     grid/vdb.h
     grid/winding.h

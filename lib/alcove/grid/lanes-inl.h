@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
@@ -52,6 +53,10 @@ HWY_INLINE V length2(const Vec3v& v) {
     return dot(v, v);
 }
 
+HWY_INLINE Vec3v plus(const Vec3v& a, const Vec3v& b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+
 HWY_INLINE Vec3v minus(const Vec3v& a, const Vec3v& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
@@ -63,6 +68,11 @@ HWY_INLINE Vec3v times(V s, const Vec3v& v) {
 /// a − s b
 HWY_INLINE Vec3v less(const Vec3v& a, V s, const Vec3v& b) {
     return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
+}
+
+HWY_INLINE Vec3v choose(M mask, const Vec3v& yes, const Vec3v& no) {
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+            hn::IfThenElse(mask, yes.z, no.z)};
 }
 
 HWY_INLINE V sum_of_sizes(const Vec3v& v) {
@@ -77,6 +87,18 @@ HWY_INLINE std::uint32_t bits_of(M mask) {
     alignas(64) std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
     return bytes[0];
+}
+
+/// Where the least of eight is.
+HWY_INLINE int least_of_eight(const float (&v)[eight]) {
+    V least = hn::Load(d, v);
+    for (int lane = lanes; lane < eight; lane += lanes)
+        least = hn::Min(least, hn::Load(d, v + lane));
+    least = hn::MinOfLanes(d, least);
+    std::uint32_t bits = 0;
+    for (int lane = 0; lane < eight; lane += lanes)
+        bits |= bits_of(hn::Eq(hn::Load(d, v + lane), least)) << lane;
+    return std::countr_zero(bits);
 }
 
 }

@@ -50,14 +50,14 @@ class OctantSearch {
     /// The way to the centre from the nearest triangle of the last group.
     Vec3 way() const {
         const Look& look = looks_[count_ - 1];
-        const int i = nearest(look);
+        const int i = least_of_eight(look.distance2);
         return {look.way[0][i], look.way[1][i], look.way[2][i]};
     }
 
     /// Measures from the nearest triangle of the last group to the centre.
     HWY_INLINE void take_nearest(const TriangleTree& tree, NearestOfEight& best) {
         Look& look = looks_[count_ - 1];
-        const auto i = static_cast<std::uint32_t>(nearest(look));
+        const auto i = static_cast<std::uint32_t>(least_of_eight(look.distance2));
         const std::uint32_t triangle = eight * look.group + i;
         best.take(tree, {&triangle, 1}, voxels_);
         look.left &= ~(1u << i);
@@ -75,17 +75,6 @@ class OctantSearch {
         std::uint32_t group;
         std::uint32_t left; ///< a bit each that was not measured yet
     };
-
-    HWY_INLINE static int nearest(const Look& look) {
-        V least = hn::Load(d, look.distance2);
-        for (int lane = lanes; lane < eight; lane += lanes)
-            least = hn::Min(least, hn::Load(d, look.distance2 + lane));
-        least = hn::MinOfLanes(d, least);
-        std::uint32_t bits = 0;
-        for (int lane = 0; lane < eight; lane += lanes)
-            bits |= bits_of(hn::Eq(hn::Load(d, look.distance2 + lane), least)) << lane;
-        return std::countr_zero(bits);
-    }
 
     /// A squared distance is convex, so by the way w to the centre c it is |w|² + 2 (v−c)·w at least from a voxel v.
     HWY_INLINE std::span<const std::uint32_t> others(const NearestOfEight& best) {
