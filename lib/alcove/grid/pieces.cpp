@@ -64,10 +64,10 @@ void group(std::span<const PieceKey> order, std::uint32_t begin, std::uint32_t e
 }
 
 Piece piece_of(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
-    const Vec3d origin = glm::floor(a);
-    return {Index3(origin),
-            {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)},
-            static_cast<std::uint32_t>(triangle)};
+    const Index3 voxel(a); // rounded down, as none is below 0
+    const Vec3d origin(voxel);
+    return {
+        voxel, {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)}, static_cast<std::uint32_t>(triangle)};
 }
 
 }

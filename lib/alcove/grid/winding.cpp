@@ -95,11 +95,11 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
                         &c = positions[triangles[t][2]];
             // Snapping moves a corner by half a step.
             const double slack = 0.5 / scale;
-            const double x0 = std::ceil(std::min({a.x, b.x, c.x}) - slack);
-            const double x1 = std::floor(std::max({a.x, b.x, c.x}) + slack);
-            const double y0 = std::ceil(std::min({a.y, b.y, c.y}) - slack);
-            const double y1 = std::floor(std::max({a.y, b.y, c.y}) + slack);
-            if (x0 > x1 || y0 > y1)
+            const auto crossed = [&](double p, double q, double r) {
+                const auto last = static_cast<double>(static_cast<std::int64_t>(std::max({p, q, r}) + slack));
+                return last >= std::min({p, q, r}) - slack;
+            };
+            if (!crossed(a.x, b.x, c.x) || !crossed(a.y, b.y, c.y))
                 continue;
             const auto snapped = [&](const Vec3d& p) {
                 return Corner{std::llround(p.x * scale), std::llround(p.y * scale), p.z};
