@@ -8,6 +8,7 @@
 #include "meshes.h"
 
 #include "alcove/accuracy/measure.h"
+#include "alcove/accuracy/pilot.h"
 #include "alcove/grid/plan.h"
 #include "alcove/mesh/read.h"
 #include "subdivided.h"
@@ -50,13 +51,13 @@ constexpr double doublings = 17.0;
 
 /// Errors and costs of all meshes, by what they are of.
 struct Figures {
-    std::array<std::vector<double>, radii.size()> error_per_deviation{};
+    std::array<std::vector<double>, radii.size()> error_per_difficulty{};
     std::vector<double> seconds_per_surfel{};
 };
 
 struct Costs {
-    std::vector<std::array<double, 3>> grid{};                               // triangles, cells, seconds
-    std::vector<std::pair<double, double>> tree{};                           // triangles, seconds
+    std::vector<std::array<double, 4>> grid{};     // triangles voxelized and left out, cells, seconds
+    std::vector<std::pair<double, double>> tree{}; // triangles, seconds
     std::array<std::vector<std::pair<double, double>>, radii.size()> rays{}; // triangles, seconds a ray
 };
 
@@ -80,6 +81,7 @@ class Survey {
         costs_.tree.emplace_back(triangles, mesh.tree_seconds);
         for (std::size_t r = 0; r < radii.size(); ++r) {
             const Truth truth = make_truth(mesh, radii[r], truth_options);
+            const Pilot pilot(mesh.surfels, mesh.rays, radii[r]);
             const Measurement exact = measure(mesh, truth, nullptr, choose(find_method("exact"), rays_timed));
             const double ray =
                 exact.occlusion_seconds / (static_cast<double>(mesh.order.size()) * rays_timed);
@@ -89,14 +91,16 @@ class Survey {
                 const MeasuredGrid grid =
                     build_grid(mesh, radii[r], chosen_voxel(radii[r], largest_voxels[v]));
                 const double voxel = grid.field.resolution();
-                costs_.grid.push_back({triangles, area / (voxel * voxel), grid.seconds});
+                const double voxelized =
+                    triangles_voxelized(area, mesh.triangles.size(), voxel, {.thin = true});
+                costs_.grid.push_back(
+                    {voxelized, triangles - voxelized, area / (voxel * voxel), grid.seconds});
                 for (std::size_t m = 0; m < methods.size(); ++m) {
                     const Measurement measured =
                         measure(mesh, truth, &grid, choose(find_method(methods[m].first), methods[m].second));
                     Figures& figures = figures_[v][m];
                     if (errors_count && measured.error.deviation > least_deviation)
-                        figures.error_per_deviation[r].push_back(measured.error.rmse /
-                                                                 measured.error.deviation);
+                        figures.error_per_difficulty[r].push_back(measured.error.rmse / pilot.difficulty());
                     if (mesh.order.size() >= fewest_vertices)
                         figures.seconds_per_surfel.push_back(measured.occlusion_seconds /
                                                                  static_cast<double>(mesh.order.size()) -
@@ -114,16 +118,16 @@ class Survey {
             for (std::size_t m = 0; m < methods.size(); ++m) {
                 const Figures& figures = figures_[v][m];
                 std::vector<std::string> errors;
-                for (const auto& at_radius : figures.error_per_deviation)
+                for (const auto& at_radius : figures.error_per_difficulty)
                     errors.push_back(fmt::format("{:.3f}", median_of(at_radius)));
                 rows += fmt::format("    {{\"{}\", {}, 1.0f / {:.0f}, {:.2g}, {{{}}}}},\n", methods[m].first,
                                     methods[m].second, 1.0f / largest_voxels[v],
                                     std::max(median_of(figures.seconds_per_surfel), 0.0),
                                     fmt::join(errors, ", "));
             }
-        const Eigen::Vector3d grid = grid_costs();
+        const Eigen::Vector4d grid = grid_costs();
         return fmt::format(head, rays, doublings, slower_per_doubling(), tree_cost(), grid(0), grid(1),
-                           grid(2), 2 * methods.size(), rows);
+                           grid(2), grid(3), 2 * methods.size(), rows);
     }
 
   private:
@@ -146,7 +150,8 @@ inline constexpr double doublings_of_rays = {};
 inline constexpr double rays_slower_per_doubling = {:.3f};
 inline constexpr double tree_seconds_per_triangle = {:.3g};
 inline constexpr double seconds_per_grid = {:.3g};
-inline constexpr double grid_seconds_per_triangle = {:.3g};
+inline constexpr double grid_seconds_per_triangle = {:.3g}; ///< that is voxelized
+inline constexpr double thinning_seconds_per_triangle = {:.3g}; ///< that is left out
 inline constexpr double grid_seconds_per_voxel = {:.3g}; ///< a cell of the finest level that the surface is in: area / voxel²
 
 struct Row {{
@@ -154,7 +159,7 @@ struct Row {{
     int samples;
     float largest_voxel;       ///< as GridOptions has it
     double seconds_per_surfel; ///< beside its rays
-    std::array<double, radii.size()> error_per_deviation; ///< RMSE over the standard deviation of the truth, median of the meshes, at each radius
+    std::array<double, radii.size()> error_per_difficulty; ///< RMSE over Pilot::difficulty(), median of the meshes, at each radius
 }};
 inline constexpr std::array<Row, {}> rows{{{{
 {}}}}};
@@ -190,12 +195,12 @@ inline constexpr std::array<Row, {}> rows{{{{
         return seconds / all;
     }
     /// Least squares of what each grid took beside what it is said to take.
-    Eigen::Vector3d grid_costs() const {
-        Eigen::MatrixXd terms(costs_.grid.size(), 3);
+    Eigen::Vector4d grid_costs() const {
+        Eigen::MatrixXd terms(costs_.grid.size(), 4);
         for (std::size_t i = 0; i < costs_.grid.size(); ++i) {
-            const auto& [triangles, cells, seconds] = costs_.grid[i];
+            const auto& [voxelized, left_out, cells, seconds] = costs_.grid[i];
             terms.row(static_cast<Eigen::Index>(i)) =
-                Eigen::RowVector3d(1.0 / seconds, triangles / seconds, cells / seconds);
+                Eigen::RowVector4d(1.0, voxelized, left_out, cells) / seconds;
         }
         return terms.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(terms.rows())).cwiseMax(0.0);
     }

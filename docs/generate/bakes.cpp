@@ -11,7 +11,7 @@ namespace alcove::docs {
 namespace {
 
 constexpr float compared_radius = 0.1f;
-constexpr std::array voxels{64, 96, 128, 256}; // along the diagonal
+constexpr std::array voxels{64, 80, 96, 128, 256}; // along the diagonal
 
 std::filesystem::path beside(const std::filesystem::path& file) {
     return std::filesystem::path(file).replace_extension(".baked.ply");

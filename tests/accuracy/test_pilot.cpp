@@ -1,6 +1,7 @@
 #include "alcove/accuracy/pilot.h"
 
 #include "alcove/accuracy/measure.h"
+#include "alcove/accuracy/subset.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -49,8 +50,21 @@ TEST_F(Piloting, TakesTheNoiseOfItsReferenceOffErrors) {
     for (float& value : ao)
         value += 0.05f;
     EXPECT_NEAR(noisy.rmse(ao), 0.05, 0.005);
-    EXPECT_NEAR(noisy.deviation(), pilot_.deviation(), 0.01);
-    EXPECT_GT(pilot_.deviation(), 0.03);
+}
+
+TEST_F(Piloting, TellsHowHardATruthIs) {
+    const std::vector<std::uint32_t> curve = evenly(spatial_order(mesh_.surfels), PilotOptions{}.surfels);
+    std::vector<float> truth(mesh_.surfels.size());
+    for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
+        truth[truth_.vertices[i]] = truth_.ao[i];
+    double steps2 = 0.0;
+    for (std::size_t i = 1; i < curve.size(); ++i)
+        steps2 += std::pow(truth[curve[i]] - truth[curve[i - 1]], 2) / 2.0;
+    const double step = std::sqrt(steps2 / static_cast<double>(curve.size() - 1));
+    const double expected = std::sqrt(step * pilot_.rmse_of_exact(16, 3));
+    EXPECT_NEAR(pilot_.difficulty(), expected, 0.1 * expected);
+    const Pilot noisy(mesh_.surfels, mesh_.rays, radius, {.rays = 64});
+    EXPECT_NEAR(noisy.difficulty(), expected, 0.15 * expected);
 }
 
 TEST_F(Piloting, TellsHowManyRaysHoldAnError) {
@@ -70,7 +84,7 @@ TEST_F(Piloting, OfNoSurfelIsEmpty) {
     EXPECT_TRUE(nothing.empty());
     EXPECT_FALSE(pilot_.empty());
     EXPECT_EQ(nothing.rmse(std::vector<float>{1.0f}), 0.0);
-    EXPECT_EQ(nothing.deviation(), 0.0);
+    EXPECT_EQ(nothing.difficulty(), 0.0);
 }
 
 }

@@ -32,8 +32,13 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     noise2_ = difference.rmse * difference.rmse / 4.0;
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
-    const double deviation = compare(reference_, reference_).deviation;
-    deviation_ = without(deviation * deviation, noise2_);
+    // They are along the curve.
+    double steps2 = 0.0;
+    for (std::size_t i = 1; i < reference_.size(); ++i)
+        steps2 += 0.5 * std::pow(double{reference_[i]} - double{reference_[i - 1]}, 2);
+    const auto steps = static_cast<double>(std::max<std::size_t>(reference_.size(), 2) - 1);
+    const double of_few_rays = std::sqrt(2.0 * noise2_) * std::pow(half.rays / 16.0, exponent);
+    difficulty_ = std::sqrt(of_few_rays * without(steps2 / steps, noise2_));
 }
 
 double Pilot::rmse_of_own(std::span<const float> ao) const {

@@ -26,8 +26,9 @@ class Pilot {
           const PilotOptions& options = {});
 
     bool empty() const { return indices_.empty(); } ///< no surfel has a normal
-    /// Standard deviation of the truth: the RMSE of the best constant guess.
-    double deviation() const { return deviation_; }
+    /// What errors of methods that share or predict go with: the geometric mean of the error of 16 exact rays and of the
+    /// RMS difference between neighbours among the pilot's surfels over √2.
+    double difficulty() const { return difficulty_; }
     /// Of the ao of all surfels that the pilot was made of, in their order.
     double rmse(std::span<const float> ao) const;
     /// Of exact rays at the pilot's radius. Cost: as many rays for each of its surfels.
@@ -43,7 +44,8 @@ class Pilot {
     std::vector<std::uint32_t> indices_;
     std::vector<Surfel> surfels_;
     std::vector<float> reference_;
-    double noise2_ = 0.0, deviation_ = 0.0; ///< of the reference
+    double noise2_ = 0.0; ///< of the reference
+    double difficulty_ = 0.0;
 };
 
 }

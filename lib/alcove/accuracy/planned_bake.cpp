@@ -41,10 +41,11 @@ PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surf
             settings.parameters.emplace_back("seed", request.seed);
         result.values = bake_channels(surfels, occluders, *choice.method, settings, request.wanted, progress);
         result.rmse = pilot.rmse(result.values[Channel::ao]);
-        ++result.attempts;
+        result.predicted_seconds += result.plan.seconds;
         if (result.rmse <= request.error || result.plan.largest_voxel == 0.0f)
             return result;
         planner.learn(result.plan, result.rmse);
+        result.failed.push_back(result.plan);
     }
 }
 

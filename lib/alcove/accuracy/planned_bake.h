@@ -13,9 +13,10 @@ using MakeField = std::function<AnyField(float largest_voxel)>;
 
 struct PlannedBake {
     Plan plan;
+    std::vector<Plan> failed; ///< of earlier bakes, whose error was too large
     ChannelValues values;
-    double rmse = 0.0; ///< as the pilot tells
-    int attempts = 0;  ///< bakes that were made
+    double rmse = 0.0;              ///< as the pilot tells
+    double predicted_seconds = 0.0; ///< CPU seconds of all bakes that were made, as Plan::seconds
 };
 
 /// Bakes by the cheapest plan, and by others where its error turns out too large at the pilot's surfels; exact

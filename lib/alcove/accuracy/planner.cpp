@@ -9,6 +9,10 @@
 namespace alcove {
 namespace {
 
+// Errors differ by a half from mesh to mesh, and then the rays that hold one by three times. Where many are planned, a
+// third of them tell first how it is here: as often as not they are enough, or fewer than planned are.
+constexpr int scouts_share = 3, fewest_of_scouts = 4;
+
 /// The table between its radii, and as at its ends beyond them.
 template <std::size_t n>
 double at_radius(const std::array<double, n>& values, float radius) {
@@ -33,8 +37,9 @@ double ray_seconds(const PlanRequest& request) {
 
 double grid_seconds(const PlanRequest& request, float largest_voxel) {
     const double voxel = chosen_voxel(request.radius, largest_voxel);
-    return plan_table::seconds_per_grid +
-           plan_table::grid_seconds_per_triangle * static_cast<double>(request.triangles) +
+    const double voxelized = triangles_voxelized(request.area, request.triangles, voxel, {.thin = true});
+    return plan_table::seconds_per_grid + plan_table::grid_seconds_per_triangle * voxelized +
+           plan_table::thinning_seconds_per_triangle * (static_cast<double>(request.triangles) - voxelized) +
            plan_table::grid_seconds_per_voxel * request.area / (voxel * voxel);
 }
 
@@ -48,7 +53,7 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
         {{choose(find_method("exact"), rays), 0.0f, error_, tree + surfels * rays * ray_seconds(request)},
          0.0});
     const auto rmse_of = [&](const plan_table::Row& row) {
-        return at_radius(row.error_per_deviation, request.radius) * pilot.deviation();
+        return at_radius(row.error_per_difficulty, request.radius) * pilot.difficulty();
     };
     const auto add = [&](const plan_table::Row& row, int samples, double rmse) {
         const bool there = request.has_grid
@@ -90,7 +95,25 @@ Plan Planner::next() const {
         if (!candidate.tried && candidate.plan.rmse <= error_ &&
             (!best || candidate.plan.seconds < best->plan.seconds))
             best = &candidate;
-    return best ? best->plan : candidates_.front().plan;
+    return best ? scout_of(*best).plan : candidates_.front().plan;
+}
+
+const Planner::Candidate& Planner::scout_of(const Candidate& planned) const {
+    const auto alike = [&](const Candidate& other) {
+        return other.plan.choice.method == planned.plan.choice.method;
+    };
+    const int rays = planned.plan.choice.rays() / scouts_share;
+    const bool known = std::any_of(candidates_.begin(), candidates_.end(),
+                                   [&](const Candidate& other) { return alike(other) && other.tried; });
+    if (planned.plan.largest_voxel == 0.0f || known || rays < fewest_of_scouts)
+        return planned;
+    const Candidate* scout = &planned;
+    for (const Candidate& other : candidates_)
+        if (alike(other) && other.plan.largest_voxel == planned.plan.largest_voxel &&
+            other.plan.choice.rays() <= rays &&
+            (scout == &planned || other.plan.choice.rays() > scout->plan.choice.rays()))
+            scout = &other;
+    return *scout;
 }
 
 void Planner::learn(const Plan& tried, double rmse) {

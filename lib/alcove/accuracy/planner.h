@@ -30,14 +30,15 @@ struct Plan {
 
 /// Weighs exact rays, whose number the pilot tells, against guided and calibrated, as far as they give the wanted
 /// channels that exact rays give. Their errors and costs are in plan_table.h: measured on the meshes that
-/// calibrated was fitted to, errors as shares of the deviation of the truth, medians over the meshes. Counts of
+/// calibrated was fitted to, errors in units of Pilot::difficulty(), medians over the meshes. Counts of
 /// rays between those of the table are reckoned from both. What a bake turned out to be corrects the others of its
 /// method. The plan depends on the mesh alone, not on the speed of the machine. Not thread-safe.
 class Planner {
   public:
     Planner(const PlanRequest& request, const Pilot& pilot);
 
-    /// The cheapest that is expected to hold the error and was not tried; exact rays always are.
+    /// The cheapest that is expected to hold the error and was not tried; exact rays always are. Before many rays of
+    /// guided, the first time, a few.
     Plan next() const;
     /// Tells what a plan came to: where that is over the error, next() is another.
     void learn(const Plan& tried, double rmse);
@@ -48,6 +49,7 @@ class Planner {
         double grid_seconds;
         bool tried = false;
     };
+    const Candidate& scout_of(const Candidate& planned) const;
 
     double error_;
     std::vector<Candidate> candidates_;
