@@ -273,8 +273,8 @@ std::string planning_section(const fs::path& folder) {
                        "cost grows or stays in "
                        "{} of {} steps to a smaller E; the plan takes 1.5 times as\nlong as the cheapest of "
                        "38 measured choices that "
-                       "holds E, or less, in {} of the {} cases where one does; counting earlier bakes whose "
-                       "error was too large, in {}.\n\n"
+                       "holds E, or less, in {} of the {} cases where one does; counting earlier "
+                       "bakes\nwhose error was too large, in {}.\n\n"
                        "| mesh | radius | E | plan | bakes | RMSE | estimated | s | cheapest | s | ratio |\n"
                        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n{}",
                        cases, held, told, grows, steps, cheap, priced, all_cheap, rows);
