@@ -283,8 +283,7 @@ void add_bake(CLI::App& program) {
     add_surroundings_options(*verb, options->surroundings);
     verb->add_option("--write-grid", options->write_grid,
                      "Keep the level sets in a .vdb: of all triangles, where a bake otherwise leaves out "
-                     "what its voxels "
-                     "cannot tell")
+                     "what its voxels cannot tell")
         ->type_name("FILE");
     verb->add_option(
             "--color", options->color,

@@ -19,8 +19,8 @@ struct GridOptions {
     float outer_band = 5.0f;
     /// Voxels inward on every level of a solid, at least 2. Occlusion never looks deeper.
     float inner_band = 2.0f;
-    /// Where triangles are far smaller than voxels, the grids are of fewer, within a voxel of them: half a voxel times √3
-    /// at most, a few hundredths of one as a rule.
+    /// Where triangles are far smaller than voxels, the grids are of fewer that lie near them: a few hundredths of a voxel
+    /// away as a rule, √3 voxels at most.
     bool thin = false;
     /// Bytes that grids and what builds them may take.
     double memory_limit = 4.0 * (1u << 30);

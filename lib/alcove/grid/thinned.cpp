@@ -3,7 +3,6 @@
 #include "alcove/mesh/edge_table.h"
 #include "alcove/parallel.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace alcove {
@@ -54,24 +53,7 @@ DisjointSets clusters_of(const Surface& surface, double cell) {
 }
 
 ThinnedSurface::ThinnedSurface(const Surface& surface, double cell) {
-    DisjointSets clusters = clusters_of(surface, cell);
-    const std::span<const Vec3d> positions = surface.positions;
-    HugeVector<std::uint32_t> names(positions.size());
-    std::vector<double> counts;
-    for (std::uint32_t v = 0; v < positions.size(); ++v) {
-        const std::uint32_t first = clusters.find(v);
-        if (first == v) {
-            names[v] = static_cast<std::uint32_t>(counts.size());
-            positions_.push_back(positions[v]);
-            counts.push_back(1.0);
-        } else {
-            names[v] = names[first];
-            positions_[names[v]] += positions[v];
-            counts[names[v]] += 1.0;
-        }
-    }
-    for (std::size_t v = 0; v < counts.size(); ++v)
-        positions_[v] /= counts[v];
+    const std::vector<std::uint32_t> names = merge(surface, cell);
     const auto renamed = [&](const Triangle& t) { return Triangle{names[t[0]], names[t[1]], names[t[2]]}; };
     const auto has_sides = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
     collect(surface.triangles, triangles_, [&](const Triangle& t, std::vector<Triangle>& kept) {
@@ -79,24 +61,50 @@ ThinnedSurface::ThinnedSurface(const Surface& surface, double cell) {
             kept.push_back(now);
     });
 
-    std::vector<std::uint8_t> bare(counts.size(), 1); // new vertices of no triangle
+    std::vector<std::uint8_t> bare(positions_.size(), 1); // new vertices of no triangle
     for (const Triangle& t : triangles_)
         for (const std::uint32_t v : t)
             bare[v] = 0;
-    if (std::find(bare.begin(), bare.end(), 1) == bare.end())
-        return;
+    const double far2 = 12.0 * cell * cell; // two diagonals of a cube
+    const auto far = [&](std::uint32_t a, std::uint32_t b) {
+        const Vec3d way = positions_[a] - positions_[b];
+        return a != b && glm::dot(way, way) > far2;
+    };
     HugeVector<Triangle> lost;
     collect(surface.triangles, lost, [&](const Triangle& t, std::vector<Triangle>& kept) {
-        if (const Triangle now = renamed(t);
-            !has_sides(now) && (bare[now[0]] | bare[now[1]] | bare[now[2]]) != 0)
+        const Triangle now = renamed(t);
+        const auto& [a, b, c] = now;
+        if (!has_sides(now) && ((bare[a] | bare[b] | bare[c]) != 0 || far(a, b) || far(b, c)))
             kept.push_back(t);
     });
     for (const Triangle& t : lost) {
         const auto first = static_cast<std::uint32_t>(positions_.size());
         for (const std::uint32_t v : t)
-            positions_.push_back(positions[v]);
+            positions_.push_back(surface.positions[v]);
         triangles_.push_back({first, first + 1, first + 2});
     }
+}
+
+/// Returns the new vertex of each.
+std::vector<std::uint32_t> ThinnedSurface::merge(const Surface& surface, double cell) {
+    DisjointSets clusters = clusters_of(surface, cell);
+    std::vector<std::uint32_t> names = huge_vector<std::uint32_t>(surface.positions.size());
+    std::vector<double> counts;
+    for (std::uint32_t v = 0; v < names.size(); ++v) {
+        const std::uint32_t first = clusters.find(v);
+        if (first == v) {
+            names[v] = static_cast<std::uint32_t>(counts.size());
+            positions_.push_back(surface.positions[v]);
+            counts.push_back(1.0);
+        } else {
+            names[v] = names[first];
+            positions_[names[v]] += surface.positions[v];
+            counts[names[v]] += 1.0;
+        }
+    }
+    for (std::size_t v = 0; v < counts.size(); ++v)
+        positions_[v] /= counts[v];
+    return names;
 }
 
 }
