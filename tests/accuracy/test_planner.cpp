@@ -2,6 +2,7 @@
 
 #include "alcove/accuracy/measure.h"
 #include "alcove/accuracy/plan_table.h"
+#include "alcove/errors.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/plan.h"
 #include "real_mesh.h"
@@ -142,6 +143,21 @@ TEST_F(Planning, KeepsToMethodsThatGiveWhatIsWanted) {
     wanted.has_grid = true;
     wanted.wanted = Channel::ao | Channel::bent_normal;
     EXPECT_NE(Planner(wanted, pilot_).next().choice.method->name, "calibrated");
+}
+
+TEST_F(Planning, BakesByExactRaysWhereNoGridCanBeMade) {
+    int asked = 0;
+    const MakeField refuse = [&](float) -> AnyField {
+        ++asked;
+        throw LimitError("too many triangles");
+    };
+    PlanRequest wanted = request(0.01);
+    wanted.triangles = 1000; // as if grids were cheaper than they are
+    const PlannedBake planned = bake_planned(mesh_.surfels, mesh_.rays, refuse, pilot_, wanted);
+    EXPECT_EQ(planned.plan.choice.method->name, "exact");
+    EXPECT_LE(planned.rmse, wanted.error);
+    EXPECT_GE(asked, 1);
+    EXPECT_LE(asked, 2) << "more than once for a voxel";
 }
 
 TEST_F(Planning, BakesHoldTheirErrorWhateverTheField) {

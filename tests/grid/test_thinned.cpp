@@ -78,7 +78,7 @@ TEST(ThinnedSurface, TurnsAsBefore) {
     EXPECT_NEAR(volume, 4000.0 * std::numbers::pi / 3.0, 0.02 * 4000.0);
 }
 
-/// A soup has nothing that hangs together.
+/// No two triangles share a vertex.
 Mesh torn(const Mesh& mesh) {
     Mesh soup;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -90,13 +90,25 @@ Mesh torn(const Mesh& mesh) {
     return soup;
 }
 
-TEST(ThinnedSurface, KeepsTrianglesThatShareNoVerticesAndPartsSmallerThanACell) {
-    const Mesh sphere = dense_sphere(), soup = torn(sphere);
-    EXPECT_EQ(thinned(soup, 0.5).surface().triangles.size(), sphere.face_count());
-    Mesh dust;
-    for (int i = 0; i < 10; ++i)
-        test::add_part(dust, test::sphere_mesh(1), 0.1, Vec3d(1.25 + i));
-    EXPECT_EQ(thinned(dust, 0.5).surface().triangles.size(), dust.face_count());
+TEST(ThinnedSurface, DoesNotOpenSeams) {
+    const Mesh sphere = dense_sphere();
+    const ThinnedSurface whole = thinned(sphere, 0.5), soup = thinned(torn(sphere), 0.5);
+    EXPECT_EQ(soup.surface().triangles.size(), whole.surface().triangles.size());
+    EXPECT_EQ(soup.surface().positions.size(), whole.surface().positions.size());
+}
+
+/// Parts smaller than a cell.
+Mesh dust(int along) {
+    Mesh mesh;
+    for (int i = 0; i < along; ++i)
+        for (int j = 0; j < along; ++j)
+            for (int k = 0; k < along; ++k)
+                test::add_part(mesh, test::sphere_mesh(1), 0.01, Vec3d(1.25) + Vec3d(i, j, k));
+    return mesh;
+}
+
+TEST(ThinnedSurface, KeepsPartsSmallerThanACell) {
+    EXPECT_EQ(thinned(dust(3), 0.5).surface().triangles.size(), dust(3).face_count());
 }
 
 TEST(ThinnedSurface, KeepsStrutsThinnerThanACell) {
@@ -221,12 +233,13 @@ TEST(ThinnedGrids, AreExactWhereTrianglesAreFew) {
     EXPECT_EQ(thin.levels.front().active_voxels, exact.levels.front().active_voxels);
 }
 
-TEST(ThinnedGrids, OfTrianglesThatShareNoVerticesAreRefusedWhereAllDoNotFit) {
-    const Mesh sphere = dense_sphere(), soup = torn(sphere);
-    const double limit = 200.0 * static_cast<double>(sphere.face_count());
-    EXPECT_NO_THROW(stack_of(sphere, true, limit));
-    EXPECT_THROW(stack_of(soup, true, limit), LimitError);
-    EXPECT_THROW(stack_of(sphere, false, limit), LimitError);
+TEST(ThinnedGrids, OfWhatCannotBeThinnedAreRefusedWhereAllDoNotFit) {
+    const Mesh sphere = dense_sphere(), parts = dust(12);
+    const auto limit = [](const Mesh& mesh) { return 200.0 * static_cast<double>(mesh.face_count()); };
+    EXPECT_NO_THROW(stack_of(sphere, true, limit(sphere)));
+    EXPECT_THROW(stack_of(sphere, false, limit(sphere)), LimitError);
+    EXPECT_THROW(stack_of(parts, true, limit(parts)), LimitError);
+    EXPECT_FALSE(stack_of(parts, true).thinned) << "none is left out";
 }
 
 }

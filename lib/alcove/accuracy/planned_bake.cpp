@@ -1,5 +1,6 @@
 #include "alcove/accuracy/planned_bake.h"
 
+#include "alcove/errors.h"
 #include "alcove/grid/plan.h"
 
 #include <map>
@@ -34,8 +35,14 @@ PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surf
         result.plan = planner.next();
         const MethodChoice& choice = result.plan.choice;
         const float voxel = request.has_grid ? GridOptions{}.largest_voxel : result.plan.largest_voxel;
-        const Occluders occluders =
-            voxel > 0.0f ? Occluders(fields.with_voxel(voxel), surface) : Occluders(surface);
+        const AnyField* field = nullptr;
+        try {
+            field = voxel > 0.0f ? &fields.with_voxel(voxel) : nullptr;
+        } catch (const LimitError&) { // less could be left out of the surface than was planned
+            planner.leave_out(result.plan.largest_voxel);
+            continue;
+        }
+        const Occluders occluders = field ? Occluders(*field, surface) : Occluders(surface);
         Settings settings = choice.settings(request.radius);
         if (choice.method->asks_rays)
             settings.parameters.emplace_back("seed", request.seed);

@@ -51,9 +51,10 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
     const int rays = pilot.rays_for(request.error, request.seed);
     candidates_.push_back(
         {{choose(find_method("exact"), rays), 0.0f, error_, tree + surfels * rays * ray_seconds(request)},
-         0.0});
+         0.0,
+         tree});
     const auto rmse_of = [&](const plan_table::Row& row) {
-        return at_radius(row.error_per_difficulty, request.radius) * pilot.difficulty();
+        return at_radius(row.error_per_difficulty, request.radius) * std::max(pilot.difficulty(), 1e-6);
     };
     const auto add = [&](const plan_table::Row& row, int samples, double rmse) {
         const bool there = request.has_grid
@@ -66,9 +67,9 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
             return;
         const double grid = request.has_grid ? 0.0 : grid_seconds(request, row.largest_voxel);
         const double own = choice.rays() * ray_seconds(request) + row.seconds_per_surfel;
-        candidates_.push_back({{choice, row.largest_voxel, rmse,
-                                grid + (choice.method->asks_rays ? tree : 0.0) + surfels * own},
-                               grid});
+        const double of_tree = choice.method->asks_rays ? tree : 0.0;
+        candidates_.push_back(
+            {{choice, row.largest_voxel, rmse, grid + of_tree + surfels * own}, grid, of_tree});
     };
     const double target = 0.95 * error_;
     for (std::size_t i = 0; i < plan_table::rows.size(); ++i) {
@@ -129,7 +130,16 @@ void Planner::learn(const Plan& tried, double rmse) {
             plan.seconds -= candidate.grid_seconds;
             candidate.grid_seconds = 0.0;
         }
+        if (tried.choice.method->asks_rays) {
+            plan.seconds -= candidate.tree_seconds;
+            candidate.tree_seconds = 0.0;
+        }
     }
+}
+
+void Planner::leave_out(float largest_voxel) {
+    std::erase_if(candidates_,
+                  [&](const Candidate& candidate) { return candidate.plan.largest_voxel == largest_voxel; });
 }
 
 }

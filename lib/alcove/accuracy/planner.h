@@ -42,11 +42,13 @@ class Planner {
     Plan next() const;
     /// Tells what a plan came to: where that is over the error, next() is another.
     void learn(const Plan& tried, double rmse);
+    /// There is no such grid.
+    void leave_out(float largest_voxel);
 
   private:
     struct Candidate {
         Plan plan;
-        double grid_seconds;
+        double grid_seconds, tree_seconds; ///< of those, what is not there yet
         bool tried = false;
     };
     const Candidate& scout_of(const Candidate& planned) const;

@@ -61,7 +61,8 @@ HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
     return low + size * Index3(i >> 2, i >> 1 & 1, i & 1);
 }
 
-/// What the search of a brick fills anew, kept from one to the next: to ask for memory takes longer than to fill it.
+/// What the search of a brick fills anew, kept by each thread from one to the next: to ask for memory takes longer than to
+/// fill it.
 struct Workspace {
     std::array<Nodes, eight> parts; // of the brick
     Sieve sieve;

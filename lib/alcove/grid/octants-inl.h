@@ -114,7 +114,7 @@ class Octants {
     /// look, below 0 where nothing is wanted.
     Octants(const TriangleTree& tree, const EightPoints& centres, float half, const float (&limits)[eight],
             const NearestNodes& nearest)
-        : centres_(centres), half_(half) {
+        : half_(half) {
         for (int i = 0; i < eight; ++i) {
             most_[i] = limits[i] * std::fabs(limits[i]);
             for (int axis = 0; axis < 3; ++axis)
@@ -162,7 +162,6 @@ class Octants {
     alignas(64) float distance2_[eight]; // to the nearest known points
     alignas(64) float way_[3][eight];    // from these
     alignas(64) float most_[eight];
-    EightPoints centres_;
     float half_;
 };
 

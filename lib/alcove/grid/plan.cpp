@@ -27,6 +27,7 @@ constexpr double bytes_to_thin_a_triangle = 100.0;
 // Thinning pays where that halves them.
 constexpr double thinned_triangles = 12.0;
 constexpr double worth_thinning = 2.0 * thinned_triangles;
+constexpr double finest_thinned = 1e-5; // the cells of finer ones are more than ThinnedSurface can number
 // All levels together against the finest: 1 + 1/4 + 1/16 + ...
 constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
@@ -45,13 +46,15 @@ struct Estimate {
         least = levels_over_finest * 4.0 * band * band * band * bytes_per_band_voxel;
         by_surface = levels_over_finest * area * band * bytes_per_band_voxel;
     }
-    bool thins(double voxel) const { return may_thin && triangles * voxel * voxel > worth_thinning * area; }
+    bool thins(double voxel) const {
+        return may_thin && voxel > finest_thinned && triangles * voxel * voxel > worth_thinning * area;
+    }
+    double voxelized(double voxel) const {
+        return thins(voxel) ? thinned_triangles * area / (voxel * voxel) : triangles;
+    }
     double bytes(double voxel) const {
-        const double whole = least + by_surface / (voxel * voxel);
-        if (!thins(voxel))
-            return whole + bytes_per_triangle * triangles;
-        return whole + bytes_to_thin_a_triangle * triangles +
-               bytes_per_triangle * thinned_triangles * area / (voxel * voxel);
+        return least + by_surface / (voxel * voxel) + bytes_per_triangle * voxelized(voxel) +
+               (thins(voxel) ? bytes_to_thin_a_triangle * triangles : 0.0);
     }
     double finest(double limit) const {
         if (!(bytes(coarsest_voxel) < limit))
@@ -100,18 +103,11 @@ float chosen_voxel(float radius, float largest_voxel) {
 }
 
 double triangles_voxelized(double area, std::size_t triangles, double voxel, const GridOptions& options) {
-    return Estimate(area, triangles, options).thins(voxel) ? thinned_triangles * area / (voxel * voxel)
-                                                           : static_cast<double>(triangles);
+    return Estimate(area, triangles, options).voxelized(voxel);
 }
 
 double finest_voxel(double area, std::size_t triangles, const GridOptions& options) {
     return Estimate(area, triangles, options).finest(options.memory_limit);
-}
-
-void check_memory(std::size_t triangles, const GridOptions& options) {
-    const double bytes = bytes_per_triangle * static_cast<double>(triangles);
-    if (!(bytes < options.memory_limit))
-        throw LimitError(too_many(triangles, bytes, options));
 }
 
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
@@ -132,6 +128,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
                                       : std::max(chosen_voxel(options.radius, options.largest_voxel),
                                                  std::nextafter(static_cast<float>(finest), 1.0f));
     plan.thin = estimate.thins(plan.voxel);
+    plan.triangles = estimate.voxelized(plan.voxel);
     plan.bytes = estimate.bytes(plan.voxel);
 
     const float reach = std::min(options.radius, 1.0f);
@@ -141,6 +138,13 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
         ++plan.levels;
     }
     return plan;
+}
+
+void check_thinned(const LevelPlan& plan, std::size_t triangles, const GridOptions& options) {
+    const double bytes =
+        plan.bytes + bytes_per_triangle * std::max(static_cast<double>(triangles) - plan.triangles, 0.0);
+    if (bytes > options.memory_limit)
+        throw LimitError(too_many(triangles, bytes, options));
 }
 
 }

@@ -30,8 +30,9 @@ struct LevelPlan {
     float voxel = 0.0f; ///< finest, unit space
     int levels = 1;
     float outer_band = 0.0f, inner_band = 0.0f;
-    bool thin = false;  ///< there are enough triangles for GridOptions::thin to take effect
-    double bytes = 0.0; ///< estimate of the peak while building
+    bool thin = false;      ///< there are enough triangles for GridOptions::thin to take effect
+    double triangles = 0.0; ///< as triangles_voxelized() has it
+    double bytes = 0.0;     ///< estimate of the peak while building
 };
 
 /// Of the triangles, in the unit space of the mesh's own box.
@@ -50,14 +51,14 @@ float chosen_voxel(float radius, float largest_voxel);
 /// do not. `area` as surface_area() has it.
 double finest_voxel(double area, std::size_t triangles, const GridOptions& options);
 
-/// \throw LimitError if a surface of so many triangles leaves no room for its grids: one that is thinned less than
-/// plan_levels() expected, because its triangles do not share their vertices.
-void check_memory(std::size_t triangles, const GridOptions& options);
-
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
 /// from area / voxel². A voxel of 0 is coarsened until it fits.
 /// \throw LimitError if no voxel fits the limit; if one that was asked for needs more than it or more than 2^20 voxels
 /// along the diagonal, naming the finest that fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
+
+/// \throw LimitError if more triangles are left of a thinned surface than were planned, and they do not fit the limit: of
+/// many parts smaller than a voxel none is left out.
+void check_thinned(const LevelPlan& plan, std::size_t triangles, const GridOptions& options);
 
 }

@@ -29,29 +29,6 @@ void warn_of_orientation(const Closedness& surface, std::vector<std::string>& wa
                         surface.inverted_components, surface.components));
 }
 
-/// Whether each edge is run as often one way as the other, as far as a sum of 64 bits tells. Not so where
-/// coincident vertices are kept apart.
-bool balanced(std::span<const Triangle> triangles) {
-    const auto one_way = [](std::uint64_t a, std::uint64_t b) { // the finalizer of MurmurHash3 (Appleby 2011)
-        std::uint64_t x = a << 32 | b;
-        x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
-        x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
-        return x ^ (x >> 33);
-    };
-    std::atomic<std::uint64_t> total{0};
-    parallel_for(triangles.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-        std::uint64_t sum = 0;
-        for (const Triangle& t : triangles.subspan(begin, end - begin))
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-                const std::uint64_t way = one_way(std::min(a, b), std::max(a, b));
-                sum += a < b ? way : a > b ? 0 - way : 0;
-            }
-        total += sum;
-    });
-    return total == 0;
-}
-
 /// Whether a connected part of the surface is practically nowhere between inside and outside.
 bool buries_a_part(const WindingColumns& columns, std::span<const Vec3d> positions,
                    std::span<const Triangle> triangles) {
@@ -74,6 +51,27 @@ bool buries_a_part(const WindingColumns& columns, std::span<const Vec3d> positio
     });
 }
 
+}
+
+bool balanced(std::span<const Triangle> triangles) {
+    const auto one_way = [](std::uint64_t a, std::uint64_t b) { // the finalizer of MurmurHash3 (Appleby 2011)
+        std::uint64_t x = a << 32 | b;
+        x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
+        x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
+        return x ^ (x >> 33);
+    };
+    std::atomic<std::uint64_t> total{0};
+    parallel_for(triangles.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        std::uint64_t sum = 0;
+        for (const Triangle& t : triangles.subspan(begin, end - begin))
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+                const std::uint64_t way = one_way(std::min(a, b), std::max(a, b));
+                sum += a < b ? way : a > b ? 0 - way : 0;
+            }
+        total += sum;
+    });
+    return total == 0;
 }
 
 Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns,

@@ -1,6 +1,8 @@
 #include "alcove/grid/thinned.h"
 
+#include "alcove/grid/solidity.h"
 #include "alcove/mesh/edge_table.h"
+#include "alcove/mesh/weld.h"
 #include "alcove/parallel.h"
 
 #include <vector>
@@ -31,6 +33,10 @@ void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, con
         for (const Triangle& t : triangles.subspan(begin, end - begin))
             visit(t, blocks[begin / grain]);
     });
+    std::size_t count = 0;
+    for (const std::vector<Triangle>& block : blocks)
+        count += block.size();
+    all.reserve(count);
     for (const std::vector<Triangle>& block : blocks)
         all.insert(all.end(), block.begin(), block.end());
 }
@@ -39,6 +45,11 @@ void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, con
 DisjointSets clusters_of(const Surface& surface, double cell) {
     const HugeVector<std::uint64_t> cells = cells_of(surface.positions, cell);
     DisjointSets clusters(cells.size());
+    if (!balanced(surface.triangles)) { // else seams would open
+        const std::vector<std::uint32_t> first = weld(surface.positions);
+        for (std::uint32_t v = 0; v < first.size(); ++v)
+            clusters.join(v, first[v]);
+    }
     for (const auto& [a, b, c] : surface.triangles) {
         if (cells[a] == cells[b])
             clusters.join(a, b);
@@ -61,6 +72,7 @@ ThinnedSurface::ThinnedSurface(const Surface& surface, double cell) {
             kept.push_back(now);
     });
 
+    // What no triangle is left of is known once all that are left are.
     std::vector<std::uint8_t> bare(positions_.size(), 1); // new vertices of no triangle
     for (const Triangle& t : triangles_)
         for (const std::uint32_t v : t)
@@ -77,6 +89,8 @@ ThinnedSurface::ThinnedSurface(const Surface& surface, double cell) {
         if (!has_sides(now) && ((bare[a] | bare[b] | bare[c]) != 0 || far(a, b) || far(b, c)))
             kept.push_back(t);
     });
+    positions_.reserve(positions_.size() + 3 * lost.size());
+    triangles_.reserve(triangles_.size() + lost.size());
     for (const Triangle& t : lost) {
         const auto first = static_cast<std::uint32_t>(positions_.size());
         for (const std::uint32_t v : t)
@@ -90,6 +104,7 @@ std::vector<std::uint32_t> ThinnedSurface::merge(const Surface& surface, double 
     DisjointSets clusters = clusters_of(surface, cell);
     std::vector<std::uint32_t> names = huge_vector<std::uint32_t>(surface.positions.size());
     std::vector<double> counts;
+    positions_.reserve(names.size()); // room that is not touched costs nothing
     for (std::uint32_t v = 0; v < names.size(); ++v) {
         const std::uint32_t first = clusters.find(v);
         if (first == v) {

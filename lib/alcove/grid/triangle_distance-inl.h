@@ -71,9 +71,9 @@ HWY_INLINE V distances2(const TriangleGroup& g, int lane, const Vec3v& p) {
         g, [lane](const float(&row)[eight]) HWY_ATTR { return hn::Load(d, row + lane); }, p));
 }
 
-/// The ways to points from the nearest points of triangles.
-template <class Of>
-HWY_INLINE Vec3v way_from(const TriangleGroup& g, const Of& of, const Vec3v& p) {
+/// The ways to a point from the nearest points of all triangles, from the lane on.
+HWY_INLINE Vec3v ways_from(const TriangleGroup& g, int lane, const Vec3v& p) {
+    const auto of = [lane](const float(&row)[eight]) HWY_ATTR { return hn::Load(d, row + lane); };
     const FromSides from = from_sides(g, of, p);
     const M ac = hn::Lt(from.ac2, from.ab2), bc = hn::Lt(from.bc2, hn::Min(from.ab2, from.ac2));
     const V x = hn::IfThenZeroElse(from.inside,
@@ -85,12 +85,6 @@ HWY_INLINE Vec3v way_from(const TriangleGroup& g, const Of& of, const Vec3v& p) 
                           hn::MulAdd(y, of(g.v[axis]), hn::Mul(from.height, of(g.n[axis]))));
     };
     return {along(0), along(1), along(2)};
-}
-
-/// The ways to a point from the nearest points of all triangles, from the lane on.
-HWY_INLINE Vec3v ways_from(const TriangleGroup& g, int lane, const Vec3v& p) {
-    return way_from(
-        g, [lane](const float(&row)[eight]) HWY_ATTR { return hn::Load(d, row + lane); }, p);
 }
 
 }

@@ -55,8 +55,8 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     std::optional<ThinnedSurface> thinned;
     if (plan.thin) {
         thinned.emplace(whole, thinned_cell);
-        check_memory(thinned->surface().triangles.size(), options.grid);
-        stack.thinned = true;
+        check_thinned(plan, thinned->surface().triangles.size(), options.grid);
+        stack.thinned = thinned->surface().triangles.size() < triangles.size();
     }
     const Surface near = thinned ? thinned->surface() : whole;
     const TriangleTree tree = tree_of(near);
