@@ -58,7 +58,8 @@ struct MeasuredGrid {
     std::size_t peak_rss_bytes;       ///< meanwhile
 };
 
-/// Radius and voxel in unit space; a voxel of 0 is chosen, and dense surfaces are thinned, as in a bake. \throw as voxelize().
+/// Radius and voxel in unit space; a voxel of 0 is chosen, and dense surfaces are thinned, as in a bake.
+/// \throw as voxelize().
 MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, const Progress& progress = {});
 
 struct Measurement {

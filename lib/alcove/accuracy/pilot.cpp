@@ -32,7 +32,7 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     noise2_ = difference.rmse * difference.rmse / 4.0;
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
-    // They are along the curve.
+    // One after the other are neighbours: the surfels were taken along the curve.
     double steps2 = 0.0;
     for (std::size_t i = 1; i < reference_.size(); ++i)
         steps2 += 0.5 * std::pow(double{reference_[i]} - double{reference_[i - 1]}, 2);

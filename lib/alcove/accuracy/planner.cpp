@@ -9,7 +9,7 @@
 namespace alcove {
 namespace {
 
-// Errors differ by a half from mesh to mesh, and then the rays that hold one by three times. Where many are planned, a
+// Errors differ by a third from mesh to mesh, and then the rays that hold one by two or three times. Where many are planned, a
 // third of them tell first how it is here: as often as not they are enough, or fewer than planned are.
 constexpr int scouts_share = 3, fewest_of_scouts = 4;
 

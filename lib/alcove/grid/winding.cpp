@@ -95,6 +95,7 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
                         &c = positions[triangles[t][2]];
             // Snapping moves a corner by half a step.
             const double slack = 0.5 / scale;
+            // Casts round down, as none is below 0, and without a call.
             const auto crossed = [&](double p, double q, double r) {
                 const auto last = static_cast<double>(static_cast<std::int64_t>(std::max({p, q, r}) + slack));
                 return last >= std::min({p, q, r}) - slack;
