@@ -12,6 +12,7 @@ set(alcove_internal_headers
     grid/nearest_of_eight-inl.h
     grid/octant_search-inl.h
     grid/octants-inl.h
+    grid/piece_groups.h
     grid/pieces.h
     grid/pseudonormals.h
     grid/sieve.h

@@ -3,6 +3,7 @@
 
 #include "alcove/types.h"
 
+#include <array>
 #include <cstdint>
 
 namespace alcove {
@@ -23,6 +24,19 @@ inline std::uint64_t morton_code(const Vec3d& cell) {
         return (x | x << 2) & 0x1249249249249249;
     };
     return spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z);
+}
+
+/// The cell at a place along the curve: z, y and x.
+/// \pre ten bits a coordinate at most
+inline std::array<std::uint16_t, 3> morton_cell(std::uint32_t code) {
+    const auto gathered = [](std::uint32_t x) { // what spread() made
+        x &= 0x9249249;
+        x = (x | x >> 2) & 0x30c30c3;
+        x = (x | x >> 4) & 0x300f00f;
+        x = (x | x >> 8) & 0x30000ff;
+        return static_cast<std::uint16_t>((x | x >> 16) & 0x3ff);
+    };
+    return {gathered(code), gathered(code >> 1), gathered(code >> 2)};
 }
 
 }

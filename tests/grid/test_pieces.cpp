@@ -20,7 +20,7 @@ void expect_whole(const std::vector<Vec3d>& positions, const std::vector<Triangl
     std::vector<double> areas(triangles.size());
     for (std::size_t g = 0; g < pieces.count(); ++g) {
         ASSERT_LT(pieces.begin(g), pieces.begin(g + 1));
-        ASSERT_LE(pieces.begin(g + 1) - pieces.begin(g), GroupedPieces::largest_group);
+        ASSERT_LE(pieces.begin(g + 1) - pieces.begin(g), largest_group);
         for (std::size_t i = pieces.begin(g); i < pieces.begin(g + 1); ++i) {
             const Piece piece = pieces.piece(i);
             const auto& [a, b, c] = piece.corners;
@@ -64,6 +64,37 @@ TEST(Pieces, OfOneCellInAHugeGridAreGroupedToo) {
         add(0.01 * Vec3d(i % 20, i / 20 % 20, i / 400), 0.01);
     add(Vec3d(1e6), 1.0);
     expect_whole(positions, triangles);
+}
+
+/// Of a sheet of triangles, eight that are nearest to one another are two by two squares.
+TEST(Pieces, AreInFullAndCompactGroups) {
+    constexpr std::uint32_t side = 100;
+    constexpr double size = 0.9; // voxels
+    std::vector<Vec3d> positions;
+    std::vector<Triangle> triangles;
+    for (std::uint32_t x = 0; x <= side; ++x)
+        for (std::uint32_t y = 0; y <= side; ++y) {
+            positions.emplace_back(size * x + 0.3, size * y + 0.3, 20.0 + 0.2 * size * x);
+            const std::uint32_t here = x * (side + 1) + y, beyond = here + side + 1;
+            if (x < side && y < side) {
+                triangles.push_back({here, beyond, here + 1});
+                triangles.push_back({beyond, beyond + 1, here + 1});
+            }
+        }
+    const GroupedPieces pieces(positions, triangles);
+    double perimeters = 0.0;
+    for (std::size_t g = 0; g < pieces.count(); ++g) {
+        Vec3d low(1e9), high(-1e9);
+        for (std::size_t i = pieces.begin(g); i < pieces.begin(g + 1); ++i)
+            for (const std::uint32_t v : triangles[pieces.piece(i).triangle]) {
+                low = glm::min(low, positions[v]);
+                high = glm::max(high, positions[v]);
+            }
+        perimeters += 2.0 * (high.x - low.x + high.y - low.y);
+    }
+    const auto groups = static_cast<double>(pieces.count());
+    EXPECT_GT(static_cast<double>(triangles.size()) / groups, 7.4);
+    EXPECT_LT(perimeters / groups, 1.3 * 8.0 * size);
 }
 
 /// Floats hold a group from its first voxel on.

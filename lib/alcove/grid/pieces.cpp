@@ -5,14 +5,12 @@
 #include "alcove/parallel.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace alcove {
 namespace {
 
-constexpr std::size_t grain = 4096; // triangles
-constexpr double cells_per_voxel = 4.0;
+constexpr std::size_t grain = 4096;          // triangles
 constexpr double most_cells = (1 << 10) - 1; // along an axis: three times 10 bits are a key
 
 double length2(const Vec3d& v) {
@@ -40,29 +38,6 @@ bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return length2(glm::cross(b - a, c - a)) > 0.0;
 }
 
-/// Halves a range of the curve, always between octants or cells, until groups are small enough. A few in one cube, whose
-/// keys differ by less than it, are filled whatever the octants: half-empty ones are more to build and to look through.
-void group(std::span<const PieceKey> order, std::uint32_t begin, std::uint32_t end, std::uint32_t cube,
-           HugeVector<std::uint32_t>& out) {
-    constexpr std::uint32_t largest = GroupedPieces::largest_group, few = 4 * largest;
-    const std::uint32_t differing = order[begin].key ^ order[end - 1].key;
-    if (end - begin <= largest || (end - begin <= few && differing < cube)) {
-        for (; end - begin > largest; begin += largest)
-            out.push_back(begin + largest);
-        return out.push_back(end);
-    }
-    std::uint32_t middle = begin + (end - begin) / 2; // of pieces in one and the same cell
-    if (differing != 0) {
-        const std::uint32_t bit = std::bit_floor(differing);
-        const auto part = order.subspan(begin, end - begin);
-        const auto upper = std::partition_point(
-            part.begin(), part.end(), [&](const PieceKey& piece) { return (piece.key & bit) == 0; });
-        middle = begin + static_cast<std::uint32_t>(upper - part.begin());
-    }
-    group(order, begin, middle, cube, out);
-    group(order, middle, end, cube, out);
-}
-
 Piece piece_of(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
     const Index3 voxel(a); // rounded down, as none is below 0
     const Vec3d origin(voxel);
@@ -78,7 +53,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
     for (const Vec3d& p : positions)
         if (is_finite(p))
             extent = std::max({extent, p.x, p.y, p.z});
-    const double scale = std::min(cells_per_voxel, most_cells / extent);
+    const double scale = std::min(most_cells_per_voxel, most_cells / extent);
 
     // Most triangles are one piece, which is made when it is asked for; those of the others are kept.
     struct Cut {
@@ -120,12 +95,7 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
         parts_.insert(parts_.end(), block.pieces.begin(), block.pieces.end());
     }
     radix_sort(order_, 0, 3 * (std::ilogb(scale * extent) + 1));
-    begin_.reserve(count + 1);
-    begin_.push_back(0);
-    constexpr double cube = 16.0; // voxels along a side; measured with 1 to 28 pieces a voxel
-    const int octaves = std::max(0, std::ilogb(cube * scale));
-    if (count > 0)
-        group(order_, 0, static_cast<std::uint32_t>(count), std::uint32_t{1} << 3 * octaves, begin_);
+    begin_ = group_pieces(order_, scale);
 }
 
 void GroupedPieces::expect(std::size_t i) const {

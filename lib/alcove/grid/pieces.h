@@ -1,8 +1,8 @@
-/// The triangles of a surface cut to a few voxels, in an order in which neighbours lie side by side.
+/// The triangles of a surface cut to a few voxels, in groups of neighbours.
 /// Internal to grid/.
 #pragma once
 
-#include "alcove/radix_sort.h"
+#include "alcove/grid/piece_groups.h"
 #include "alcove/types.h"
 
 #include <glm/gtc/type_precision.hpp>
@@ -26,15 +26,11 @@ struct Piece {
 /// voxel has to look at does not grow with the size of triangles.
 inline constexpr double longest_piece = 4.0;
 
-using PieceKey = Keyed<std::uint32_t>; ///< a place on the curve
-
-/// All pieces of a surface along a Morton curve, in groups that seldom span a jump of the curve. Triangles without an
-/// area are left out: their edges belong to their neighbours. The result does not depend on the number of threads.
-/// Const use is thread-safe. Cost: linear, about 60 ns a piece, 20 more to ask for it.
+/// All pieces of a surface, in groups that lie along a Morton curve. Triangles without an area are left out: their edges
+/// belong to their neighbours. The result does not depend on the number of threads. Const use is thread-safe. Cost:
+/// linear, about 60 ns a piece, 20 more to ask for it.
 class GroupedPieces {
   public:
-    static constexpr std::uint32_t largest_group = 8;
-
     /// `positions` are in index space, none below 0, and finite where a triangle names them; they and the triangles must outlive this.
     GroupedPieces(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
