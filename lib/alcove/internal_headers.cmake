@@ -15,7 +15,7 @@ set(alcove_internal_headers
     grid/piece_groups.h
     grid/pieces.h
     grid/pseudonormals.h
-    grid/sieve.h
+    grid/sieve-inl.h
     grid/solidity.h
     grid/thinned.h
     grid/triangle_distance-inl.h

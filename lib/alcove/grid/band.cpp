@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace alcove {
 namespace {
@@ -13,10 +14,10 @@ namespace {
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// The blocks of `smallest` voxels in a block, each with its nodes.
-void descend(const TriangleTree& tree, const BandBlock& from, Block block, int smallest, float reach,
+void descend(const TriangleTree& tree, BandBlock from, Block block, int smallest, float reach,
              std::vector<BandBlock>& out) {
     if (block.size == smallest) {
-        out.push_back(from);
+        out.push_back(std::move(from));
         return;
     }
     std::array<Nodes, 8> parts;
@@ -25,8 +26,7 @@ void descend(const TriangleTree& tree, const BandBlock& from, Block block, int s
     for (int i = 0; i < 8; ++i)
         if (auto& part = parts[static_cast<std::size_t>(i)]; !part.empty()) {
             block.low = from.low + block.size * Index3(i >> 2, i >> 1 & 1, i & 1);
-            // Copied, to have no more room than it takes.
-            descend(tree, {block.low, Nodes(part)}, block, smallest, reach, out);
+            descend(tree, {block.low, std::move(part)}, block, smallest, reach, out);
         }
 }
 
@@ -57,8 +57,10 @@ std::vector<BandBlock> Band::blocks(int stride) const {
     descend(*tree_, {Index3(0), std::move(whole)}, {Index3(0), size, stride}, task, reach, tasks);
     std::vector<std::vector<BandBlock>> found(tasks.size());
     parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            descend(*tree_, tasks[i], {tasks[i].low, task, stride}, brick_size, reach, found[i]);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Block block{tasks[i].low, task, stride};
+            descend(*tree_, std::move(tasks[i]), block, brick_size, reach, found[i]);
+        }
     });
     std::vector<BandBlock> all;
     for (auto& blocks : found)
@@ -67,7 +69,7 @@ std::vector<BandBlock> Band::blocks(int stride) const {
 }
 
 BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float, brick_volume> known) const {
-    const auto units = static_cast<float>(stride);
+    const auto units = static_cast<float>(stride), per_unit = 1.0f / units;
     const Block at{block.low, brick_size, stride};
     std::array<std::uint8_t, brick_rows> inside{};
     if (columns_)
@@ -87,7 +89,7 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
         const std::size_t first = row * brick_size;
         float distances[brick_size];
         for (std::size_t z = 0; z < brick_size; ++z)
-            distances[z] = std::sqrt(nearest.distance2[first + z]) / units;
+            distances[z] = std::sqrt(nearest.distance2[first + z]) * per_unit;
         unsigned active = 0;
         for (std::size_t z = 0; z < brick_size; ++z) {
             const float width = (inside[row] >> z & 1) != 0 ? -width_.inner : width_.outer;

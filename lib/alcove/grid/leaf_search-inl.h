@@ -12,7 +12,7 @@
 #include "alcove/grid/nearest_of_eight-inl.h"
 #include "alcove/grid/octant_search-inl.h"
 #include "alcove/grid/octants-inl.h"
-#include "alcove/grid/sieve.h"
+#include "alcove/grid/sieve-inl.h"
 
 #include <bit>
 #include <limits>
@@ -44,52 +44,51 @@ class LeafSearch {
     /// Looks at their groups, but for that of the `first` leaf; where few voxels want one, these are measured from at once.
     void look(const TriangleTree& tree, std::span<const std::uint32_t> nodes, std::uint32_t first,
               const EightPoints& voxels, Sieve& sieve, OctantSearch& search, NearestOfEight& best) {
+        take_likely(tree, nodes, voxels, best);
         for (int lane = 0; lane < eight; lane += lanes)
             store(voxels.from(Index3(0), lane), voxels_, lane);
-        limit_by_points(tree, nodes);
-        sieve.sift(tree, nodes, down_to_leaves, [&](std::uint32_t node) HWY_ATTR -> std::uint32_t {
-            const Bounds& bounds = tree.nodes[node];
-            std::uint32_t bits = wanting(best, bounds);
-            if (node >= tree.leaves)
-                return bits;
-            if (node == first)
-                return 0;
-            if (std::popcount(bits) > few)
-                search.look(tree, bounds.child);
+        sieve.sift(tree, nodes, down_to_leaves,
+                   [&](std::uint32_t node) HWY_ATTR { return wanting(best, tree.nodes[node]); });
+        const Shares& shares = sieve.shares();
+        for (std::size_t k = 0; k < shares.count(); ++k) {
+            const std::uint32_t leaf = shares.what(k), wanting = shares.wanting(k),
+                                group = tree.nodes[leaf].child;
+            if (leaf == first)
+                continue;
+            if (std::popcount(wanting) > few)
+                search.look(tree, group);
             else
-                for (; bits != 0; bits &= bits - 1)
-                    best.take_for(std::countr_zero(bits), tree.triangles[bounds.child], voxels);
-            return 0;
-        });
+                for (std::uint32_t bits = wanting; bits != 0; bits &= bits - 1)
+                    best.take_for(std::countr_zero(bits), tree.triangles[group], voxels);
+        }
     }
 
   private:
     // Voxels that one after the other are measured from a group in the time that it takes to look at it from their
     // centre and to measure from what that leaves of it.
-    static constexpr int few = 3;
+    static constexpr int few = 4;
 
-    void limit_by_points(const TriangleTree& tree, std::span<const std::uint32_t> nodes) {
-        for (int lane = 0; lane < eight; lane += lanes) {
-            const Vec3v at = load(voxels_, lane);
-            V least = hn::Set(d, std::numeric_limits<float>::infinity());
-            for (const std::uint32_t node : nodes)
-                least = hn::Min(least, length2(minus(at, everywhere(tree.nodes[node].point))));
-            hn::Store(least, d, points_ + lane);
-        }
+    /// Measures from the group that is likely to be the nearest to each voxel.
+    HWY_INLINE static void take_likely(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
+                                       const EightPoints& voxels, NearestOfEight& best) {
+        const NearestNodes near(tree, nodes, voxels);
+        for (int i = 0; i < eight; ++i)
+            if (best.distance2[i] >= 0.0f) {
+                const std::uint32_t leaf = leaf_near(tree, near.node[i], voxels.point(i));
+                best.take_for(i, tree.triangles[tree.nodes[leaf].child], voxels);
+            }
     }
 
     HWY_INLINE std::uint32_t wanting(const NearestOfEight& best, const Bounds& bounds) const {
         std::uint32_t bits = 0;
         for (int lane = 0; lane < eight; lane += lanes) {
-            const V limit = hn::Min(hn::Load(d, best.distance2 + lane), hn::Load(d, points_ + lane));
-            const V least = distance2(bounds, load(voxels_, lane));
-            bits |= bits_of(hn::Le(least, hn::Mul(limit, hn::Set(d, slack)))) << lane;
+            const V limit = hn::Mul(hn::Load(d, best.distance2 + lane), hn::Set(d, slack));
+            bits |= bits_of(hn::Le(distance2(bounds, load(voxels_, lane)), limit)) << lane;
         }
         return bits;
     }
 
     alignas(64) float voxels_[3][eight];
-    alignas(64) float points_[eight]; // squared distances of the nearest points that are known of the surface
 };
 
 }

@@ -29,19 +29,24 @@ std::array<float, brick_volume> known_distances(const LevelSet* finer, const Ind
         return known;
     const FloatTree& tree = finer->grid->grid->constTree();
     constexpr int half = brick_size / 2;
+    const double per_value = 1.0 / value_scale;
     for (int octant = 0; octant < 8; ++octant) {
         const Index3 part = half * Index3(octant >> 2, octant >> 1 & 1, octant & 1), at = 2 * (low + part);
         const Leaf* leaf = tree.probeConstLeaf(Coord(at.x, at.y, at.z));
         if (!leaf)
             continue;
-        for (int x = 0; x < half; ++x)
+        const float* const values = leaf->buffer().data();
+        for (int x = 0; x < half; ++x) {
+            const auto slice =
+                leaf->getValueMask().getWord<openvdb::Index64>(static_cast<openvdb::Index>(2 * x));
             for (int y = 0; y < half; ++y)
                 for (int z = 0; z < half; ++z)
-                    if (const auto i = Leaf::coordToOffset(Coord(2 * x, 2 * y, 2 * z)); leaf->isValueOn(i)) {
+                    if (const int row = 2 * y * brick_size; slice >> (row + 2 * z) & 1) {
                         const int voxel = ((part.x + x) * brick_size + part.y + y) * brick_size + part.z + z;
-                        known[static_cast<std::size_t>(voxel)] =
-                            static_cast<float>(std::fabs(leaf->getValue(i)) / value_scale);
+                        known[static_cast<std::size_t>(voxel)] = static_cast<float>(
+                            std::fabs(values[2 * x * brick_size * brick_size + row + 2 * z]) * per_value);
                     }
+        }
     }
     return known;
 }

@@ -6,6 +6,7 @@
 
 #include "alcove/grid/leaf_search-inl.h"
 #include "alcove/grid/octant_search-inl.h"
+#include "alcove/grid/sieve-inl.h"
 
 #include <algorithm>
 #include <array>
@@ -36,25 +37,29 @@ HWY_INLINE Octants known_octants(const TriangleTree& tree, const Block& block, c
     return {tree, octants_of(block), half_of(block), limits, nearest};
 }
 
-HWY_INLINE void split_nodes(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
-                            const Block& block, const Octants& octants, Sieve& sieve,
-                            std::array<Nodes, eight>& parts) {
+using Parts = std::array<std::span<const std::uint32_t>, eight>;
+
+/// What the octants get, until the sieve shares out again.
+HWY_INLINE Parts split_nodes(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
+                             const Block& block, const Octants& octants, Sieve& sieve) {
     sieve.sift(tree, nodes, diagonal * half_of(block),
                [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree.nodes[node]); });
-    sieve.shares().share_out(parts);
+    return sieve.shares().share_out();
 }
 
-void split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
-                 const float (&reach)[eight], Sieve& sieve, std::array<Nodes, eight>& parts) {
+Parts split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
+                  const float (&reach)[eight], Sieve& sieve) {
     const NearestNodes near(tree, nodes, octants_of(block));
-    split_nodes(tree, nodes, block, known_octants(tree, block, reach, near), sieve, parts);
+    return split_nodes(tree, nodes, block, known_octants(tree, block, reach, near), sieve);
 }
 
 void split_once(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
                 float reach, std::array<Nodes, eight>& parts) {
     const float alike[eight] = {reach, reach, reach, reach, reach, reach, reach, reach};
     Sieve sieve;
-    split_block(tree, nodes, block, alike, sieve, parts);
+    const Parts shares = split_block(tree, nodes, block, alike, sieve);
+    for (std::size_t i = 0; i < eight; ++i)
+        parts[i].assign(shares[i].begin(), shares[i].end());
 }
 
 HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
@@ -64,11 +69,9 @@ HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
 /// What the search of a brick fills anew, kept by each thread from one to the next: to ask for memory takes longer than to
 /// fill it.
 struct Workspace {
-    std::array<Nodes, eight> parts; // of the brick
-    Sieve sieve;
+    Sieve of_brick, of_block; // of 4³
     LeafSearch leaves;
-    std::array<OctantSearch, eight> octants; // of a block of 4³
-    std::array<Nodes, eight> wanted;         // by them
+    std::array<OctantSearch, eight> octants; // of the block
 };
 
 /// The voxels of a brick, from its nodes down.
@@ -88,9 +91,9 @@ class BrickSearch {
     void search(std::span<const std::uint32_t> nodes) {
         float reach[eight];
         reach_of_octants(Index3(0), brick_size, reach);
-        split_block(tree_, nodes, brick_, reach, work_.sieve, work_.parts);
+        const Parts parts = split_block(tree_, nodes, brick_, reach, work_.of_brick);
         for (int i = 0; i < eight; ++i)
-            if (const Nodes& part = work_.parts[static_cast<std::size_t>(i)]; !part.empty())
+            if (const auto& part = parts[static_cast<std::size_t>(i)]; !part.empty())
                 search_octants(part, octant(Index3(0), brick_size / 2, i));
     }
 
@@ -115,9 +118,9 @@ class BrickSearch {
             search.look(tree_, tree_.nodes[first[i]].child);
             octants.know(i, search.way());
         }
-        split_nodes(tree_, nodes, block, octants, work_.sieve, work_.wanted);
+        const Parts parts = split_nodes(tree_, nodes, block, octants, work_.of_block);
         for (int i = 0; i < eight; ++i) {
-            const Nodes& wanted = work_.wanted[static_cast<std::size_t>(i)];
+            const auto& wanted = parts[static_cast<std::size_t>(i)];
             if (wanted.empty())
                 continue;
             const Index3 at = octant(low, 2, i);
@@ -130,7 +133,7 @@ class BrickSearch {
                         search.look(tree_, tree_.nodes[leaf].child);
                 }
             else
-                work_.leaves.look(tree_, wanted, first[i], voxels[i], work_.sieve, search, best);
+                work_.leaves.look(tree_, wanted, first[i], voxels[i], work_.of_block, search, best);
             search.take_others(tree_, best);
             keep(best, at);
         }
@@ -138,7 +141,7 @@ class BrickSearch {
 
     // To choose among no more than this costs more than to look at all of them. Measured on a scan with 1 to 28
     // triangles a voxel. Nodes that are no leaves may hold far more: on the coarsest levels few hold the whole surface.
-    static constexpr std::size_t few_leaves = 48;
+    static constexpr std::size_t few_leaves = 32;
 
     bool are_few_leaves(std::span<const std::uint32_t> nodes) const {
         return nodes.size() <= few_leaves && std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) {

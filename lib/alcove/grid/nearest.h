@@ -6,7 +6,7 @@
 /// matter to the result.
 #pragma once
 
-#include "alcove/grid/sieve.h"
+#include "alcove/grid/triangle_tree.h"
 
 #include <array>
 #include <cstddef>
@@ -14,6 +14,8 @@
 #include <vector>
 
 namespace alcove {
+
+using Nodes = std::vector<std::uint32_t>; ///< of a TriangleTree
 
 /// A cube of voxels of a level whose voxels are `stride` apart in the tree's units.
 struct Block {
