@@ -55,10 +55,11 @@ struct NearestOfEight {
         const Vec3v p = voxels.one(g.origin, voxel);
         for (int lane = 0; lane < eight; lane += lanes) {
             const V found = distances2(g, lane, p), least = hn::MinOfLanes(d, found);
-            if (hn::GetLane(least) < distance2[voxel]) {
-                distance2[voxel] = hn::GetLane(least);
-                triangle[voxel] = g.triangle[lane + hn::FindFirstTrue(d, hn::Eq(found, least))];
-            }
+            const auto i =
+                static_cast<std::uint32_t>(lane + hn::FindFirstTrue(d, hn::Eq(found, least))) % eight;
+            const bool nearer = hn::GetLane(least) < distance2[voxel];
+            distance2[voxel] = nearer ? hn::GetLane(least) : distance2[voxel];
+            triangle[voxel] = nearer ? g.triangle[i] : triangle[voxel];
         }
     }
 };

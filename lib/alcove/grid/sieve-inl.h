@@ -23,7 +23,9 @@ HWY_BEFORE_NAMESPACE();
 namespace alcove {
 namespace HWY_NAMESPACE {
 
-/// What is wanted by some of eight, kept without branches that depend on it: no machine predicts these.
+// Kept and shared out without branches that depend on what is wanted: no machine predicts these.
+
+/// What is wanted by some of eight.
 class Shares {
   public:
     void clear() { count_ = 0; }
@@ -47,9 +49,9 @@ class Shares {
 
     /// What each of the eight wants, in the order in which it was added; until the next call.
     HWY_INLINE std::array<std::span<const std::uint32_t>, eight> share_out() {
-        const std::size_t room = count_ + eight; // vectors are written in full
-        if (parts_.size() < eight * room)
-            parts_.resize(2 * eight * room);
+        const std::size_t room = count_ + eight, all = eight * room; // vectors are written in full
+        if (parts_.size() < all)
+            parts_.resize(2 * all);
         std::fill_n(wanting_.begin() + static_cast<std::ptrdiff_t>(count_), eight, 0u);
         std::array<std::span<const std::uint32_t>, eight> parts;
         for (std::size_t i = 0; i < eight; ++i) {
@@ -57,6 +59,7 @@ class Shares {
             const auto bit = hn::Set(du, 1u << i);
             for (std::size_t k = 0; k < count_; k += lanes) {
                 const auto wants = hn::TestBit(hn::LoadU(du, &wanting_[k]), bit);
+                // CompressStore() is many times as slow on some machines.
                 hn::StoreU(hn::Compress(hn::LoadU(du, &what_[k]), wants), du, end);
                 end += hn::CountTrue(du, wants);
             }
@@ -82,22 +85,27 @@ class Sieve {
     template <class Wanting>
     HWY_INLINE void sift(const TriangleTree& tree, std::span<const std::uint32_t> nodes, float largest,
                          const Wanting& wanting) {
-        shares_.clear();
-        shares_.make_room(nodes.size());
-        eights_.clear();
+        std::size_t opened = 0;
+        const auto make_room = [&](std::size_t more) {
+            shares_.make_room(more);
+            if (children_.size() < opened + more)
+                children_.resize(2 * (opened + more));
+        };
         const auto ask = [&](std::uint32_t node) HWY_ATTR {
             const std::uint32_t bits = wanting(node);
             const Bounds& bounds = tree.nodes[node];
-            if (node < tree.leaves || bounds.radius <= largest)
-                shares_.add(node, bits);
-            else if (bits != 0)
-                eights_.push_back(bounds.child);
+            const bool picked = node < tree.leaves || bounds.radius <= largest;
+            shares_.add(node, picked ? bits : 0);
+            children_[opened] = bounds.child;
+            opened += !picked && bits != 0;
         };
+        shares_.clear();
+        make_room(nodes.size());
         for (const std::uint32_t node : nodes)
             ask(node);
-        for (std::size_t k = 0; k < eights_.size(); ++k) {
-            shares_.make_room(TriangleTree::children);
-            const std::uint32_t first = eights_[k];
+        for (std::size_t k = 0; k < opened; ++k) {
+            make_room(TriangleTree::children);
+            const std::uint32_t first = children_[k];
             for (std::uint32_t node = first; node < first + TriangleTree::children; ++node)
                 ask(node);
         }
@@ -106,7 +114,7 @@ class Sieve {
     Shares& shares() { return shares_; }
 
   private:
-    Nodes eights_; // the first each
+    Nodes children_; // of opened nodes, the first each
     Shares shares_;
 };
 
