@@ -41,7 +41,7 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
     const RaySurface surface =
         surroundings.around(input.mesh, input.triangles, input.stack, input.frame, {.rays = true}).rays();
     baked.grid_seconds = watch.lap();
-    const Pilot pilot(surfels, surface, radius);
+    const Pilot pilot(surfels, surface, radius, pilot_for(*task.planning.error));
     const bool has_grid = !input.stack.levels.empty();
     const std::size_t known_warnings = input.warnings.size();
     std::map<float, GridFacts> grids;

@@ -134,8 +134,7 @@ std::string section_of(const fs::path& file, const fs::path& images) {
 class Market {
   public:
     Market(const MeasuredMesh& mesh, float radius)
-        : mesh_(mesh), radius_(radius), truth_(make_truth(mesh, radius)),
-          pilot_(mesh.surfels, mesh.rays, radius) {
+        : mesh_(mesh), radius_(radius), truth_(make_truth(mesh, radius)) {
         for (const float voxel : largest_voxels)
             grids_.emplace(voxel, build_grid(mesh, radius, chosen_voxel(radius, voxel)));
         const auto add = [&](std::string_view method, int samples, float voxel) {
@@ -165,7 +164,8 @@ class Market {
                             .triangles = mesh_.triangles.size(),
                             .area = surface_area(mesh_.mesh, mesh_.triangles)};
         const auto field = [&](float voxel) -> AnyField { return grids_.at(voxel).field; };
-        Bought bought{bake_planned(mesh_.surfels, mesh_.rays, field, pilot_, request), 0.0, {}, 0.0, {}};
+        const Pilot pilot(mesh_.surfels, mesh_.rays, radius_, pilot_for(error));
+        Bought bought{bake_planned(mesh_.surfels, mesh_.rays, field, pilot, request), 0.0, {}, 0.0, {}};
         std::vector<float> values;
         for (const std::uint32_t vertex : truth_.vertices)
             values.push_back(bought.bake.values[Channel::ao][vertex]);
@@ -227,7 +227,6 @@ class Market {
     const MeasuredMesh& mesh_;
     float radius_;
     Truth truth_;
-    Pilot pilot_;
     std::map<float, MeasuredGrid> grids_;
     std::vector<Offer> offers_;
 };

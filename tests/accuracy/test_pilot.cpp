@@ -24,11 +24,12 @@ class Piloting : public testing::Test {
 
     const MeasuredMesh mesh_{"spheres", two_spheres()};
     const Truth truth_ = make_truth(mesh_, radius, {.rays = 4096});
-    const Pilot pilot_{mesh_.surfels, mesh_.rays, radius};
+    static constexpr PilotOptions options{.surfels = 1024, .rays = 512};
+    const Pilot pilot_{mesh_.surfels, mesh_.rays, radius, options};
 };
 
 TEST_F(Piloting, FindsTheErrorOfAWholeBake) {
-    ASSERT_GT(mesh_.surfels.size(), PilotOptions{}.surfels);
+    ASSERT_GT(mesh_.surfels.size(), options.surfels);
     for (const int rays : {2, 16, 64}) {
         const std::vector<float> ao = bake(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = rays});
         double squares = 0.0;
@@ -53,7 +54,7 @@ TEST_F(Piloting, TakesTheNoiseOfItsReferenceOffErrors) {
 }
 
 TEST_F(Piloting, TellsHowHardATruthIs) {
-    const std::vector<std::uint32_t> curve = evenly(spatial_order(mesh_.surfels), PilotOptions{}.surfels);
+    const std::vector<std::uint32_t> curve = evenly(spatial_order(mesh_.surfels), options.surfels);
     std::vector<float> truth(mesh_.surfels.size());
     for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
         truth[truth_.vertices[i]] = truth_.ao[i];
@@ -64,7 +65,20 @@ TEST_F(Piloting, TellsHowHardATruthIs) {
     const double expected = std::sqrt(step * pilot_.rmse_of_exact(16, 3));
     EXPECT_NEAR(pilot_.difficulty(), expected, 0.1 * expected);
     const Pilot noisy(mesh_.surfels, mesh_.rays, radius, {.rays = 64});
-    EXPECT_NEAR(noisy.difficulty(), expected, 0.15 * expected);
+    EXPECT_NEAR(noisy.difficulty(), expected, 0.15 * expected) << "however many surfels and rays tell it";
+}
+
+TEST(PilotFor, TakesMoreRaysOfFewerSurfelsTheSmallerTheError) {
+    double rays = 0.0;
+    for (const double error : {0.5, 0.05, 0.02, 0.01, 0.001}) {
+        const PilotOptions options = pilot_for(error);
+        EXPECT_EQ(options.surfels * static_cast<std::size_t>(options.rays), 4096u * 128u);
+        EXPECT_GE(options.rays, rays);
+        EXPECT_GE(options.surfels, 1024u);
+        rays = options.rays;
+    }
+    EXPECT_EQ(pilot_for(0.05).surfels, 4096u);
+    EXPECT_EQ(pilot_for(0.005).surfels, 1024u);
 }
 
 TEST_F(Piloting, TellsHowManyRaysHoldAnError) {

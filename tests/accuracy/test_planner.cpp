@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace alcove {
@@ -35,7 +36,7 @@ class Planning : public testing::Test {
         Planner planner(wanted, pilot_);
         Expected result{planner.next(), 0.0};
         result.seconds = result.plan.seconds;
-        if (result.plan.rmse > wanted.error) { // a few rays before many
+        while (result.plan.rmse > wanted.error) { // tried before what is expected to hold the error
             planner.learn(result.plan, result.plan.rmse);
             result.plan = planner.next();
             result.seconds += result.plan.seconds;
@@ -121,6 +122,30 @@ TEST_F(Planning, TriesAFewRaysBeforeMany) {
     Planner lucky(wanted, pilot_);
     lucky.learn(lucky.next(), 0.8 * few.rmse);
     EXPECT_LT(lucky.next().choice.rays(), as_expected.choice.rays());
+}
+
+TEST_F(Planning, TriesWhatIsFarCheaperAndMayHoldTheError) {
+    PlanRequest wanted = request(0.0);
+    wanted.surfels = 100'000'000;
+    wanted.finest_voxel = 1.0 / 100.0; // leaves one grid
+    const auto calibrated =
+        std::find_if(plan_table::rows.begin(), plan_table::rows.end(), [](const plan_table::Row& row) {
+            return row.method == "calibrated" && row.largest_voxel == 1.0f / 64;
+        });
+    static_assert(plan_table::radii[2] == 0.1);
+    const double rmse = calibrated->error_per_difficulty[2] * pilot_.difficulty();
+    const MethodChoice choice = choose(find_method("calibrated"), calibrated->samples);
+    for (const double over : {0.95, 1.1}) {
+        wanted.error = rmse / over;
+        EXPECT_EQ(Planner(wanted, pilot_).next().choice, choice) << over;
+    }
+    Planner planner(wanted, pilot_);
+    planner.learn(planner.next(), rmse);
+    const Plan sure = planner.next();
+    EXPECT_LE(sure.rmse, wanted.error) << "only one of a method is hoped for";
+
+    wanted.error = rmse / 1.3;
+    EXPECT_NE(Planner(wanted, pilot_).next().choice, choice) << "too far from it";
 }
 
 TEST_F(Planning, LearnsFromWhatItTried) {

@@ -13,11 +13,21 @@ constexpr std::uint32_t first_seed = 0x9d1f, second_seed = 0x51ab;
 constexpr int most_rays = 1 << 20;
 /// Of the error of shifted lattices, in their rays.
 constexpr double exponent = 0.72;
+constexpr std::size_t neighbours = 1024; // along the curve
 
 double without(double square, double noise2) {
     return std::sqrt(std::max(square - noise2, 0.0));
 }
 
+}
+
+PilotOptions pilot_for(double error) {
+    constexpr double rays_at_one = 5.0;
+    constexpr PilotOptions of_large{};
+    int share = 1;
+    while (share < 4 && share * of_large.rays * error < rays_at_one)
+        share *= 2;
+    return {of_large.surfels / static_cast<std::size_t>(share), of_large.rays * share};
 }
 
 Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius,
@@ -32,11 +42,12 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     noise2_ = difference.rmse * difference.rmse / 4.0;
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
-    // One after the other are neighbours: the surfels were taken along the curve.
+    // Surfels were taken along the curve.
+    const std::size_t apart = std::max<std::size_t>(reference_.size() / neighbours, 1);
     double steps2 = 0.0;
-    for (std::size_t i = 1; i < reference_.size(); ++i)
-        steps2 += 0.5 * std::pow(double{reference_[i]} - double{reference_[i - 1]}, 2);
-    const auto steps = static_cast<double>(std::max<std::size_t>(reference_.size(), 2) - 1);
+    for (std::size_t i = apart; i < reference_.size(); ++i)
+        steps2 += 0.5 * std::pow(double{reference_[i]} - double{reference_[i - apart]}, 2);
+    const auto steps = static_cast<double>(std::max<std::size_t>(reference_.size(), apart + 1) - apart);
     const double of_few_rays = std::sqrt(2.0 * noise2_) * std::pow(half.rays / 16.0, exponent);
     difficulty_ = std::sqrt(of_few_rays * without(steps2 / steps, noise2_));
 }

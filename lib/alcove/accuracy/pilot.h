@@ -10,13 +10,17 @@
 namespace alcove {
 
 struct PilotOptions {
-    std::size_t surfels = 1024; ///< at most, >= 1, evenly along the Morton curve
-    int rays = 512;             ///< a surfel, even, >= 2
+    std::size_t surfels = 4096; ///< at most, >= 1, evenly along the Morton curve
+    int rays = 128;             ///< a surfel, even, >= 2
 };
 
+/// For errors of that size, > 0, at the same cost: large ones differ most from surfel to surfel, small ones drown in the
+/// noise of few rays.
+PilotOptions pilot_for(double error);
+
 /// Some surfels with their reference ao, by exact rays of other seeds than a bake's. Half of the rays beside the
-/// other half tell the noise of the reference, which is taken off all errors. An RMSE is right to about 5 %
-/// where errors are alike everywhere, to 20 % where one surfel in a hundred has them all. `const` use is safe
+/// other half tell the noise of the reference, which is taken off all errors. An RMSE is right to about 3 %
+/// where errors are alike everywhere, to 10 % where one surfel in a hundred has them all. `const` use is safe
 /// from any number of threads.
 class Pilot {
   public:
@@ -27,7 +31,7 @@ class Pilot {
 
     bool empty() const { return indices_.empty(); } ///< no surfel has a normal
     /// What errors of methods that share or predict go with: the geometric mean of the error of 16 exact rays and of the
-    /// RMS difference between neighbours among the pilot's surfels over √2.
+    /// RMS difference between neighbours, among a thousand of the pilot's surfels, over √2.
     double difficulty() const { return difficulty_; }
     /// Of the ao of all surfels that the pilot was made of, in their order.
     double rmse(std::span<const float> ao) const;

@@ -13,6 +13,10 @@ namespace {
 // third of them tell first how it is here: as often as not they are enough, or fewer than planned are.
 constexpr int scouts_share = 3, fewest_of_scouts = 4;
 
+// A method that is expected to be over the error by no more than this holds it once in four times. Where it takes no more than
+// this share of what is planned, it is worth to see.
+constexpr double hope_over = 1.2, hope_share = 0.25;
+
 /// The table between its radii, and as at its ends beyond them.
 template <std::size_t n>
 double at_radius(const std::array<double, n>& values, float radius) {
@@ -91,12 +95,35 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(reques
 }
 
 Plan Planner::next() const {
+    const Candidate* const planned = cheapest(error_);
+    return planned ? scout_of(hope_of(*planned)).plan : hope_of(candidates_.front()).plan;
+}
+
+/// Of those that were not tried.
+const Planner::Candidate* Planner::cheapest(double error) const {
     const Candidate* best = nullptr;
     for (const Candidate& candidate : candidates_)
-        if (!candidate.tried && candidate.plan.rmse <= error_ &&
+        if (!candidate.tried && candidate.plan.rmse <= error &&
             (!best || candidate.plan.seconds < best->plan.seconds))
             best = &candidate;
-    return best ? scout_of(*best).plan : candidates_.front().plan;
+    return best;
+}
+
+bool Planner::is_known(const Method* method) const {
+    return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+        return candidate.tried && candidate.plan.choice.method == method;
+    });
+}
+
+const Planner::Candidate& Planner::hope_of(const Candidate& planned) const {
+    const Candidate* const hope = cheapest(hope_over * error_);
+    if (!hope || is_known(hope->plan.choice.method))
+        return planned;
+    const bool same_grid = hope->plan.largest_voxel == planned.plan.largest_voxel,
+               same_tree = hope->plan.choice.method->asks_rays && planned.plan.choice.method->asks_rays;
+    const double in_vain =
+        hope->plan.seconds - (same_grid ? hope->grid_seconds : 0.0) - (same_tree ? hope->tree_seconds : 0.0);
+    return in_vain < hope_share * planned.plan.seconds ? *hope : planned;
 }
 
 const Planner::Candidate& Planner::scout_of(const Candidate& planned) const {
@@ -104,9 +131,7 @@ const Planner::Candidate& Planner::scout_of(const Candidate& planned) const {
         return other.plan.choice.method == planned.plan.choice.method;
     };
     const int rays = planned.plan.choice.rays() / scouts_share;
-    const bool known = std::any_of(candidates_.begin(), candidates_.end(),
-                                   [&](const Candidate& other) { return alike(other) && other.tried; });
-    if (planned.plan.largest_voxel == 0.0f || known || rays < fewest_of_scouts)
+    if (planned.plan.largest_voxel == 0.0f || is_known(planned.plan.choice.method) || rays < fewest_of_scouts)
         return planned;
     const Candidate* scout = &planned;
     for (const Candidate& other : candidates_)
