@@ -125,9 +125,9 @@ class Survey {
                                     std::max(median_of(figures.seconds_per_surfel), 0.0),
                                     fmt::join(errors, ", "));
             }
-        const Eigen::Vector4d grid = grid_costs();
+        const GridCosts grid = grid_costs();
         return fmt::format(head, rays, doublings, slower_per_doubling(), tree_cost(), grid(0), grid(1),
-                           grid(2), grid(3), 2 * methods.size(), rows);
+                           grid(2), grid(3), grid(4), 2 * methods.size(), rows);
     }
 
   private:
@@ -153,6 +153,7 @@ inline constexpr double seconds_per_grid = {:.3g};
 inline constexpr double grid_seconds_per_triangle = {:.3g}; ///< that is voxelized
 inline constexpr double thinning_seconds_per_triangle = {:.3g}; ///< that is left out
 inline constexpr double grid_seconds_per_voxel = {:.3g}; ///< a cell of the finest level that the surface is in: area / voxel²
+inline constexpr double grid_seconds_of_both = {:.3g}; ///< by the geometric mean of triangles that are voxelized and such cells
 
 struct Row {{
     std::string_view method;
@@ -195,12 +196,13 @@ inline constexpr std::array<Row, {}> rows{{{{
         return seconds / all;
     }
     /// Least squares of what each grid took beside what it is said to take.
-    Eigen::Vector4d grid_costs() const {
-        Eigen::MatrixXd terms(costs_.grid.size(), 4);
+    using GridCosts = Eigen::Matrix<double, 5, 1>;
+    GridCosts grid_costs() const {
+        Eigen::MatrixXd terms(costs_.grid.size(), 5);
         for (std::size_t i = 0; i < costs_.grid.size(); ++i) {
             const auto& [voxelized, left_out, cells, seconds] = costs_.grid[i];
-            terms.row(static_cast<Eigen::Index>(i)) =
-                Eigen::RowVector4d(1.0, voxelized, left_out, cells) / seconds;
+            terms.row(static_cast<Eigen::Index>(i)) << 1.0 / seconds, voxelized / seconds, left_out / seconds,
+                cells / seconds, std::sqrt(voxelized * cells) / seconds;
         }
         return terms.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(terms.rows())).cwiseMax(0.0);
     }

@@ -42,9 +42,11 @@ double ray_seconds(const PlanRequest& request) {
 double grid_seconds(const PlanRequest& request, float largest_voxel) {
     const double voxel = chosen_voxel(request.radius, largest_voxel);
     const double voxelized = triangles_voxelized(request.area, request.triangles, voxel, {.thin = true});
+    const double cells = request.area / (voxel * voxel);
     return plan_table::seconds_per_grid + plan_table::grid_seconds_per_triangle * voxelized +
            plan_table::thinning_seconds_per_triangle * (static_cast<double>(request.triangles) - voxelized) +
-           plan_table::grid_seconds_per_voxel * request.area / (voxel * voxel);
+           plan_table::grid_seconds_per_voxel * cells +
+           plan_table::grid_seconds_of_both * std::sqrt(voxelized * cells);
 }
 
 }
