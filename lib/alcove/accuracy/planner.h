@@ -38,8 +38,8 @@ class Planner {
     Planner(const PlanRequest& request, const Pilot& pilot);
 
     /// The cheapest that is expected to hold the error and was not tried; exact rays always are. Before it, of methods that
-    /// were not tried yet, one that is far cheaper and expected to be only a little over the error; before many rays of
-    /// guided a few.
+    /// were not tried yet, one that may hold the error and is so cheap that this saves time on the average; before many
+    /// rays of guided a few.
     Plan next() const;
     /// Tells what a plan came to: where that is over the error, next() is another.
     void learn(const Plan& tried, double rmse);
@@ -52,7 +52,6 @@ class Planner {
         double grid_seconds, tree_seconds; ///< of those, what is not there yet
         bool tried = false;
     };
-    const Candidate* cheapest(double error) const;
     const Candidate& hope_of(const Candidate& planned) const;
     const Candidate& scout_of(const Candidate& planned) const;
     bool is_known(const Method* method) const; ///< one of its bakes was tried
