@@ -195,8 +195,8 @@ inline constexpr std::array<Row, {}> rows{{{{
             seconds += tree, all += triangles;
         return seconds / all;
     }
-    /// Least squares of what each grid took beside what it is said to take.
     using GridCosts = Eigen::Matrix<double, 5, 1>;
+    /// Least squares of what each grid took beside what it is said to take.
     GridCosts grid_costs() const {
         Eigen::MatrixXd terms(costs_.grid.size(), 5);
         for (std::size_t i = 0; i < costs_.grid.size(); ++i) {

@@ -25,7 +25,7 @@ Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const B
     baked.values = bake_channels(surfels, occluders, *task.method, task.settings, task.wanted, progress);
     watch.lap();
     if (with_pilot) {
-        const Pilot pilot(surfels, occluders.rays(), task.settings.radius);
+        const Pilot pilot(surfels, occluders.rays(), task.settings.radius, pilot_beside(baked.choice.rays()));
         if (!pilot.empty())
             baked.rmse = pilot.rmse(baked.values[Channel::ao]);
         baked.pilot_seconds = watch.lap();

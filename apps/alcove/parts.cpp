@@ -22,9 +22,10 @@ VoxelizeOptions options_of_part(const VoxelizeOptions& whole, float scale) {
     return options;
 }
 
-/// A share of those of the whole.
-std::size_t surfels_of_pilot(std::size_t part, std::size_t whole) {
-    return (PilotOptions{}.surfels * part + whole - 1) / whole;
+/// With a share of the surfels of the whole.
+PilotOptions pilot_of_part(PilotOptions whole, std::size_t part_surfels, std::size_t whole_surfels) {
+    whole.surfels = (whole.surfels * part_surfels + whole_surfels - 1) / whole_surfels;
+    return whole;
 }
 
 /// What pilots of parts say of the whole.
@@ -96,8 +97,9 @@ Baked bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const B
             });
         if (with_pilot) {
             watch.lap();
-            const Pilot pilot(surfels, occluders.rays(), of_part.radius,
-                              {.surfels = surfels_of_pilot(surfels.size(), input.mesh.vertex_count())});
+            const Pilot pilot(
+                surfels, occluders.rays(), of_part.radius,
+                pilot_of_part(pilot_beside(result.choice.rays()), surfels.size(), input.mesh.vertex_count()));
             if (!pilot.empty())
                 error.add(pilot.rmse(values[Channel::ao]), surfels.size());
             result.pilot_seconds += watch.lap();

@@ -81,6 +81,15 @@ TEST(PilotFor, TakesMoreRaysOfFewerSurfelsTheSmallerTheError) {
     EXPECT_EQ(pilot_for(0.005).surfels, 1024u);
 }
 
+TEST_F(Piloting, TellsSmallErrorsOfManyRaysByMany) {
+    const std::vector<float> ao = bake(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = 1024});
+    const double known = Pilot(mesh_.surfels, mesh_.rays, radius, {.surfels = 4096, .rays = 4096}).rmse(ao);
+    ASSERT_GT(known, 0.0);
+    EXPECT_NEAR(Pilot(mesh_.surfels, mesh_.rays, radius, pilot_beside(1024)).rmse(ao), known, 0.5 * known);
+    EXPECT_EQ(pilot_beside(1024).rays, 512);
+    EXPECT_EQ(pilot_beside(0).surfels, 4096u);
+}
+
 TEST_F(Piloting, TellsHowManyRaysHoldAnError) {
     int fewer = 0;
     for (const double error : {0.05, 0.02, 0.005}) {

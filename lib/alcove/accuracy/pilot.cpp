@@ -15,6 +15,16 @@ constexpr int most_rays = 1 << 20;
 constexpr double exponent = 0.72;
 constexpr std::size_t neighbours = 1024; // along the curve
 
+/// Of that many rays, as far as surfels enough are left.
+PilotOptions pilot_of(double rays) {
+    constexpr int most_shares = 4;
+    constexpr PilotOptions most_surfels{};
+    int share = 1;
+    while (share < most_shares && share * most_surfels.rays < rays)
+        share *= 2;
+    return {most_surfels.surfels / static_cast<std::size_t>(share), share * most_surfels.rays};
+}
+
 double without(double square, double noise2) {
     return std::sqrt(std::max(square - noise2, 0.0));
 }
@@ -22,12 +32,12 @@ double without(double square, double noise2) {
 }
 
 PilotOptions pilot_for(double error) {
-    constexpr double rays_at_one = 5.0;
-    constexpr PilotOptions of_large{};
-    int share = 1;
-    while (share < 4 && share * of_large.rays * error < rays_at_one)
-        share *= 2;
-    return {of_large.surfels / static_cast<std::size_t>(share), of_large.rays * share};
+    constexpr double rays_at_one = 5.0; // their noise is a quarter of the error or less
+    return pilot_of(rays_at_one / error);
+}
+
+PilotOptions pilot_beside(int rays) {
+    return pilot_of(0.5 * rays); // as noisy as that: the difference of both is still told
 }
 
 Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius,

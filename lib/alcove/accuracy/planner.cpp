@@ -116,9 +116,10 @@ bool Planner::is_known(const Method* method) const {
     });
 }
 
+/// What saves most time on the average where it is tried first: that itself where nothing does.
 const Planner::Candidate& Planner::hope_of(const Candidate& planned) const {
     const Candidate* hope = &planned;
-    double saved = 0.0; // on the average
+    double saved = 0.0;
     for (const Candidate& other : candidates_) {
         if (is_known(other.plan.choice.method))
             continue;
@@ -135,6 +136,7 @@ const Planner::Candidate& Planner::hope_of(const Candidate& planned) const {
     return *hope;
 }
 
+/// Of the same method, with a share of its rays.
 const Planner::Candidate& Planner::scout_of(const Candidate& planned) const {
     const auto alike = [&](const Candidate& other) {
         return other.plan.choice.method == planned.plan.choice.method;

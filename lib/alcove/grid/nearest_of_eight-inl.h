@@ -50,7 +50,7 @@ struct NearestOfEight {
         }
     }
 
-    /// Measures from all of a group to one of the voxels.
+    /// Measures from all of a group to one of the voxels. Whether one is nearer, no machine predicts: without a branch.
     HWY_INLINE void take_for(int voxel, const TriangleGroup& g, const EightPoints& voxels) {
         const Vec3v p = voxels.one(g.origin, voxel);
         for (int lane = 0; lane < eight; lane += lanes) {

@@ -36,7 +36,7 @@ void cut_into_bins(std::span<const PieceKey> pieces, std::uint32_t begin, std::u
 }
 
 struct PlacedPiece {
-    std::array<std::uint16_t, 4> cell; // the last is no coordinate
+    std::array<std::uint16_t, 4> cell; // and a zero, for vectors to hold
     PieceKey piece;
 };
 using Bin = std::array<PlacedPiece, largest_bin>;
@@ -44,7 +44,7 @@ constexpr auto cells_of_bin = static_cast<std::size_t>(bin_side * most_cells_per
 
 struct Slab {
     std::size_t axis;
-    unsigned low, cells;
+    unsigned low;
 };
 
 /// Around pieces across the axis along which they lie furthest apart.
@@ -55,11 +55,11 @@ Slab widest_slab(std::span<const PlacedPiece> pieces) {
             low[axis] = std::min(low[axis], piece.cell[axis]);
             high[axis] = std::max(high[axis], piece.cell[axis]);
         }
-    Slab widest{0, 0, 0};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (const unsigned cells = high[axis] - low[axis] + 1u; cells > widest.cells)
-            widest = {axis, low[axis], cells};
-    return widest;
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis)
+        if (high[axis] - low[axis] > high[widest] - low[widest])
+            widest = axis;
+    return {widest, low[widest]};
 }
 
 /// Puts the `half` of pieces that are lowest along an axis before the others, of one cell those that were first.

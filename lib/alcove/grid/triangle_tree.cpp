@@ -10,7 +10,7 @@ namespace alcove {
 namespace {
 
 constexpr int eight = 8;
-static_assert(TriangleGroup::size == eight && TriangleTree::children == eight);
+static_assert(TriangleGroup::size == eight && largest_group == eight && TriangleTree::children == eight);
 // Floats at the far end of the grid are this coarse, relatively; bounds are widened by it.
 constexpr float rounding = 0x1p-21f;
 constexpr float nowhere = 1e18f; // its square is finite
