@@ -14,15 +14,14 @@ struct PilotOptions {
     int rays = 128;             ///< a surfel, even, >= 2
 };
 
-// Large errors differ most from surfel to surfel, small ones drown in the noise of few rays: at the same cost, for errors of
-// that size, > 0, and for what is baked by so many rays a surfel, 0 where by none.
-PilotOptions pilot_for(double error);
-PilotOptions pilot_beside(int rays);
+/// As many rays altogether, of more surfels or fewer: large errors differ most from surfel to surfel, small ones drown in the
+/// noise of few rays.
+PilotOptions pilot_for(double error); ///< for errors of that size, > 0
+PilotOptions pilot_beside(int rays);  ///< for what is baked by so many rays a surfel, 0 where by none
 
-/// Some surfels with their reference ao, by exact rays of other seeds than a bake's. Half of the rays beside the
-/// other half tell the noise of the reference, which is taken off all errors. An RMSE of 4,096
-/// surfels is right to about 3 % where errors are alike everywhere, to 10 % where one surfel in a hundred has them all.
-/// `const` use is safe from any number of threads.
+/// Some surfels with their reference ao, by exact rays of other seeds than a bake's. Half of the rays beside the other half
+/// tell the noise of the reference, which is taken off all errors. An RMSE of 4,096 surfels is right to about 3 % where errors
+/// are alike everywhere, to 10 % where one surfel in a hundred has them all. `const` use is safe from any number of threads.
 class Pilot {
   public:
     /// `surface` is what occludes the surfels; the radius may be infinite. Cost: `rays` rays for each of its
