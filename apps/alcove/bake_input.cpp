@@ -55,8 +55,8 @@ void warn_of_distance(const VoxelizedMesh& input, const std::string& file,
 void take_grid(VoxelizedMesh& input, GridStack stack, const GridRequest& request, const std::string& file) {
     input.frame = frame_of(input.mesh.box());
     input.stack = reframed(std::move(stack), input.frame);
-    input.radius = parse_length(request.radius, "--radius")
-                       .to_unit(input.frame.diagonal, input.stack.levels.front().voxel);
+    input.radius = to_unit(parse_length(request.radius, "--radius"), input.frame.diagonal,
+                           input.stack.levels.front().voxel);
     const float reach = input.stack.reach();
     if (request.inside && !input.stack.knows_inside())
         input.warnings.push_back(fmt::format(

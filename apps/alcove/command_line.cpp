@@ -1,29 +1,15 @@
 #include "command_line.h"
 
+#include "alcove/edit_distance.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace alcove::cli {
 namespace {
-
-std::size_t mistakes(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t(0));
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-        }
-    }
-    return row.back();
-}
 
 std::string guess(std::string_view typed, const std::vector<std::string>& names) {
     const std::string meant = nearest(typed, names);
@@ -82,7 +68,7 @@ std::string nearest(std::string_view typed, const std::vector<std::string>& name
     std::string best;
     std::size_t fewest = typed.size() / 3 + 1;
     for (const std::string& name : names)
-        if (const std::size_t count = mistakes(typed, name);
+        if (const std::size_t count = edit_distance(typed, name);
             count <= fewest && (best.empty() || count < fewest)) {
             fewest = count;
             best = name;

@@ -13,7 +13,7 @@ namespace alcove::cli {
 std::string explain(const CLI::App& program, const CLI::ParseError& error,
                     const std::vector<std::string>& words);
 
-/// The name that takes the fewest typing mistakes (V. I. Levenshtein, 1966) to become `typed`; empty where
+/// The name that takes the fewest typing mistakes to become `typed`; empty where
 /// none is near enough to be meant.
 std::string nearest(std::string_view typed, const std::vector<std::string>& names);
 

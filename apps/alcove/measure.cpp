@@ -157,7 +157,7 @@ class Laboratory {
             mesh_.emplace(*job.mesh, read_mesh(*job.mesh));
         }
         const double diagonal = mesh_->frame.diagonal;
-        const float radius = job.radius->length.to_unit(diagonal);
+        const float radius = to_unit(job.radius->length, diagonal);
         if (!same_truth(last_, job)) {
             grid_.reset();
             truth_ = make_truth(*mesh_, radius, {}, next(truth_work));
@@ -165,7 +165,7 @@ class Laboratory {
         if (!same_grid(last_, job)) {
             grid_.reset();
             const Length& voxel = job.voxel->length;
-            grid_.emplace(build_grid(*mesh_, radius, voxel.value > 0.0 ? voxel.to_unit(diagonal) : 0.0f,
+            grid_.emplace(build_grid(*mesh_, radius, voxel.value > 0.0 ? to_unit(voxel, diagonal) : 0.0f,
                                      next(grid_work)));
         }
         last_ = &job;

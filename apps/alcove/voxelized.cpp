@@ -14,7 +14,6 @@
 #include <cmath>
 
 namespace alcove::cli {
-namespace {
 
 SignChoice parse_sign(const std::string& text) {
     if (text == "auto")
@@ -26,6 +25,15 @@ SignChoice parse_sign(const std::string& text) {
     throw UsageError(fmt::format("--sign takes auto, signed or unsigned, not '{}'", text));
 }
 
+std::optional<Length> parse_voxel(const std::string& text) {
+    if (text == "auto")
+        return {};
+    const Length voxel = parse_length(text, "--voxel");
+    if (voxel.unit == Length::Unit::voxels)
+        throw UsageError("--voxel is what vx stands for: give it as 0.2 (scene units) or 0.5%");
+    if (std::isinf(voxel.value))
+        throw UsageError("--voxel takes a finite length, not 'inf': write 0.2 (scene units) or 0.5%");
+    return voxel;
 }
 
 void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& description) {
@@ -71,13 +79,8 @@ VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& requ
                                nlohmann::ordered_json& seconds) {
     // What is wrong on the command line is said before any work.
     const Length radius = parse_length(request.radius, "--radius");
-    const bool automatic = request.voxel == "auto";
-    const Length voxel = automatic ? Length{} : parse_length(request.voxel, "--voxel");
-    if (voxel.unit == Length::Unit::voxels)
-        throw UsageError("--voxel is what vx stands for: give it as 0.2 (scene units) or 0.5%");
-    if (std::isinf(voxel.value))
-        throw UsageError("--voxel takes a finite length, not 'inf': write 0.2 (scene units) or 0.5%");
-    if (automatic && radius.unit == Length::Unit::voxels)
+    const std::optional<Length> voxel = parse_voxel(request.voxel);
+    if (!voxel && radius.unit == Length::Unit::voxels)
         throw UsageError(
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
     VoxelizedMesh result;
@@ -94,8 +97,8 @@ VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& requ
     result.warnings = result.mesh.warnings;
     result.triangles = triangulate(result.mesh).triangles;
     result.frame = frame_of(result.mesh.box());
-    grid.voxel = automatic ? 0.0f : voxel.to_unit(result.frame.diagonal);
-    grid.radius = radius.to_unit(result.frame.diagonal, grid.voxel);
+    grid.voxel = voxel ? to_unit(*voxel, result.frame.diagonal) : 0.0f;
+    grid.radius = to_unit(radius, result.frame.diagonal, grid.voxel);
     result.radius = grid.radius;
     seconds["read"] = watch.lap();
     return result;

@@ -4,7 +4,10 @@
 #include "common.h"
 
 #include "alcove/grid/voxelize.h"
+#include "alcove/length.h"
 #include "alcove/mesh/triangulate.h"
+
+#include <optional>
 
 namespace alcove::cli {
 
@@ -20,6 +23,12 @@ void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& 
 
 /// Adds --voxel and --sign.
 void add_grid_options(CLI::App& verb, GridRequest& request);
+
+/// What --voxel says; nothing for `auto`. \throw UsageError unless it is a length or `auto`.
+std::optional<Length> parse_voxel(const std::string& text);
+
+/// What --sign says. \throw UsageError unless it is `auto`, `signed` or `unsigned`.
+SignChoice parse_sign(const std::string& text);
 
 struct VoxelizedMesh {
     std::string file;

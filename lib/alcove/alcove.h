@@ -13,6 +13,7 @@
 #pragma once
 
 #include "alcove/errors.h"
+#include "alcove/length.h"
 #include "alcove/parallel.h"
 #include "alcove/types.h"
 
@@ -34,6 +35,7 @@
 #include "alcove/grid/voxelize.h"
 
 #include "alcove/field/any_field.h"
+#include "alcove/field/blend.h"
 #include "alcove/field/bricks.h"
 #include "alcove/field/combine.h"
 #include "alcove/field/field.h"
@@ -76,6 +78,10 @@
 #include "alcove/render/renderer.h"
 #include "alcove/render/shading.h"
 #include "alcove/render/subject.h"
+
+#include "alcove/scene/scene.h"
+#include "alcove/scene/scene_file.h"
+#include "alcove/scene/staging.h"
 
 #include "alcove/accuracy/error_figures.h"
 #include "alcove/accuracy/heat_map.h"

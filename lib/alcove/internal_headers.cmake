@@ -4,6 +4,7 @@ set(alcove_internal_headers
     accuracy/chart.h
     accuracy/counting_field.h
     atomic_file.h
+    edit_distance.h
     grid/band.h
     grid/leaf_search-inl.h
     grid/level_set.h
@@ -40,4 +41,8 @@ set(alcove_internal_headers
     occlusion/triangle_pairs.h
     radix_sort.h
     render/camera_rays.h
-    resident_memory.h)
+    resident_memory.h
+    scene/pose.h
+    scene/prop_fields.h
+    scene/props.h
+    scene/toml_table.h)

@@ -18,7 +18,9 @@ const std::vector<Verb> verbs{
       "--write-grid", "--color", "--color-encoding", "--grid", "--adaptivity", "--self", "--occluder",
       "--ground", "--up"}},
     {"voxelize", {"--voxel", "--band", "--radius"}},
-    {"render", {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov"}},
+    {"render",
+     {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov", "--pixel-samples",
+      "--no-ground"}},
     {"measure", {"--radius", "--voxel", "--methods", "--report"}},
     {"info", {}},
 };

@@ -125,8 +125,8 @@ TEST(Renderer, OcclusionDarkensACornerAndOnlyAmbientLight) {
         darkest = std::min(darkest, image.ao[i]);
         brightest = std::max(brightest, image.ao[i]);
         EXPECT_EQ(open.ao[i], 1.0f);
-        EXPECT_EQ(image.color[i], shade(lighting, image.normal[i], image.ao[i]));
-        EXPECT_EQ(open.color[i], shade(lighting, open.normal[i], 1.0f));
+        EXPECT_EQ(image.color[i], shade(lighting, {}, {.normal = image.normal[i], .ao = image.ao[i]}));
+        EXPECT_EQ(open.color[i], shade(lighting, {}, {.normal = open.normal[i]}));
     }
     EXPECT_LT(darkest, 0.5f);
     EXPECT_GT(brightest, 0.99f);

@@ -24,7 +24,7 @@ TEST(Shading, IsTheFormulaOfItsSource) {
         lighting.key = {1.0f, 0.5f, 0.25f};
         lighting.sky = {0.2f, 0.3f, 0.5f};
         lighting.ground = {0.1f, 0.4f, 0.3f};
-        const Vec3 color = shade(lighting, Vec3(n), static_cast<float>(ao));
+        const Vec3 color = shade(lighting, {.color = Vec3(1.0f)}, {.normal = Vec3(n), .ao = static_cast<float>(ao)});
         // direct + ambient·ao·(½ + ½ n_y) + bounce·clamp(−n_y)·ao
         const double ny = n.x * up.x + n.y * up.y + n.z * up.z;
         const double facing = std::fmax(0.0, n.x * light.x + n.y * light.y + n.z * light.z);
@@ -39,9 +39,10 @@ TEST(Shading, IsTheFormulaOfItsSource) {
 TEST(Shading, OcclusionLeavesTheKeyLightAlone) {
     Lighting lighting;
     const Vec3 normal(0.0f, 1.0f, 0.0f);
-    const Vec3 buried = shade(lighting, normal, 0.0f);
+    const Material white{.color = Vec3(1.0f)};
+    const Vec3 buried = shade(lighting, white, {.normal = normal, .ao = 0.0f});
     EXPECT_EQ(buried, lighting.key);
-    EXPECT_EQ(shade(lighting, normal, 1.0f), lighting.key + lighting.sky);
+    EXPECT_EQ(shade(lighting, white, {.normal = normal}), lighting.key + lighting.sky);
 }
 
 TEST(Shading, DefaultLightingStaysWithinTheDisplay) {

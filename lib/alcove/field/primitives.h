@@ -42,7 +42,8 @@ struct Torus {
 
     float map(const Vec3& p) const {
         const Vec3 q = p - center;
-        return std::hypot(std::hypot(q.x, q.z) - ring_radius, q.y) - tube_radius;
+        const float ring = std::sqrt(q.x * q.x + q.z * q.z) - ring_radius;
+        return std::sqrt(ring * ring + q.y * q.y) - tube_radius;
     }
 };
 

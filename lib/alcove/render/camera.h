@@ -18,6 +18,7 @@ struct ImageSize {
     int width = 1280;
     int height = 720;
 };
+inline constexpr int longest_side = 65536; ///< pixels
 
 /// Where to look from; what is not given is chosen so that the subject fills the image.
 struct CameraOptions {

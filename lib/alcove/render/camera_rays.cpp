@@ -65,8 +65,8 @@ RayPrecision::RayPrecision(float resolution)
       slack(2.5f * resolution + 1e-4f) {}
 
 CameraRays::CameraRays(const Subject& subject, const Camera& camera, int samples)
-    : field_(subject.field), camera_(camera), frame_(subject.frame), precision_(resolution(subject.field)),
-      samples_(samples), two_sided_(two_sided(subject.field)) {
+    : subject_(subject), field_(subject.field), camera_(camera), frame_(subject.frame),
+      precision_(resolution(subject.field)), samples_(samples), two_sided_(two_sided(subject.field)) {
     eye_ = (camera.eye() - frame_.center) / frame_.diagonal;
     low_ = (subject.box.min - frame_.center) / frame_.diagonal - Vec3d(precision_.slack);
     high_ = (subject.box.max - frame_.center) / frame_.diagonal + Vec3d(precision_.slack);
@@ -82,12 +82,43 @@ Vec3d CameraRays::direction(std::size_t sample) const {
                              static_cast<double>(pixel / width) + within.y);
 }
 
+CameraRays::GroundHit CameraRays::meet_ground(const Vec3d& ray) const {
+    GroundHit nearest;
+    for (std::size_t i = 0; i < subject_.grounds.size(); ++i) {
+        const Ground& ground = subject_.grounds[i];
+        const Vec3d normal(ground.plane.normal);
+        const double approach = -glm::dot(normal, ray);
+        const double height = glm::dot(normal, eye_) - double(ground.plane.offset);
+        if (!(approach > 0.0 && height > 0.0 && height < nearest.distance * approach))
+            continue;
+        const double distance = height / approach;
+        if (glm::length(eye_ + distance * ray) < double(ground.gone))
+            nearest = {distance,
+                       static_cast<ObjectId>(std::max<std::size_t>(1, subject_.parts.size()) + i + 1)};
+    }
+    return nearest;
+}
+
+void CameraRays::set_ground(const Vec3d& ray, const GroundHit& ground, std::size_t at, Hits& hits) const {
+    hits.surfels[at] = {Vec3(eye_ + ground.distance * ray), ground_of(subject_, ground.object)->plane.normal};
+    hits.objects[at] = ground.object;
+    hits.depths[at] =
+        static_cast<float>(ground.distance * frame_.diagonal * glm::dot(ray, camera_.forward()));
+}
+
 void CameraRays::trace(std::size_t begin, std::size_t end, std::size_t at, Hits& hits) const {
+    const std::size_t first = at;
     Batch rays;
     for (std::size_t sample = begin; sample < end; ++sample, ++at) {
         hits.surfels[at] = {Vec3(0.0f), Vec3(0.0f)};
+        hits.objects[at] = no_object;
         const Vec3d ray = direction(sample);
-        const Span span(eye_, ray, low_, high_);
+        const GroundHit ground = meet_ground(ray);
+        // Replaced by what is met in front of it.
+        if (ground.object != no_object)
+            set_ground(ray, ground, at, hits);
+        Span span(eye_, ray, low_, high_);
+        span.leave = std::min(span.leave, ground.distance);
         if (!span.empty()) {
             // All rays of a batch end at the same length, so each begins where that makes it leave the box.
             // Counting from there, not from the eye, keeps single precision enough for any eye.
@@ -99,6 +130,35 @@ void CameraRays::trace(std::size_t begin, std::size_t end, std::size_t at, Hits&
             meet(rays, hits);
             rays.count = 0;
         }
+    }
+    if (subject_.parts.size() > 1)
+        name_parts(first, at, hits);
+}
+
+/// Tells of each hit of the field which part it is of: the one whose surface is nearest.
+void CameraRays::name_parts(std::size_t begin, std::size_t end, Hits& hits) const {
+    Places places;
+    std::array<std::size_t, RayBatch::capacity> owner;
+    Values nearest, distance;
+    const auto name = [&] {
+        nearest.fill(std::numeric_limits<float>::infinity());
+        for (std::size_t part = 0; part < subject_.parts.size(); ++part) {
+            map_batch(subject_.parts[part].field, places.points(), any_reach, distance.data());
+            for (std::size_t i = 0; i < places.count; ++i)
+                if (std::fabs(distance[i]) < nearest[i]) {
+                    nearest[i] = std::fabs(distance[i]);
+                    hits.objects[owner[i]] = static_cast<ObjectId>(part + 1);
+                }
+        }
+        places.count = 0;
+    };
+    for (std::size_t at = begin; at < end; ++at) {
+        if (hits.objects[at] != no_object && ground_of(subject_, hits.objects[at]) == nullptr) {
+            owner[places.count] = at;
+            places.add(hits.surfels[at].position);
+        }
+        if (places.count == RayBatch::capacity || (at + 1 == end && places.count > 0))
+            name();
     }
 }
 
@@ -145,7 +205,8 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
         const bool doubtful = !smooth || std::fabs(missing[i]) > 0.5f * near;
         // Only what is smooth may lean away at a silhouette.
         const bool behind = (smooth ? glm::dot(slope[i], met.direction(i)) : along) > 0.0f;
-        if (!hits.surfels[met.owner[i]].has_normal() || (!doubtful && behind))
+        const ObjectId so_far = hits.objects[met.owner[i]];
+        if (so_far != 1 || (!doubtful && behind))
             set(met, i, behind ? -normal : normal, hits);
         if (doubtful) {
             const float end = start + widest_jump * voxel / std::max(std::fabs(along), 0.1f);
@@ -192,6 +253,7 @@ CameraRays::Batch CameraRays::traced(Batch& rays) const {
 void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, Hits& hits) const {
     const Vec3 direction = rays.direction(i);
     hits.surfels[rays.owner[i]] = {rays.place(i), facing(gradient, direction)};
+    hits.objects[rays.owner[i]] = 1;
     const double length = (rays.before[i] + static_cast<double>(rays.travelled[i])) * frame_.diagonal;
     hits.depths[rays.owner[i]] = static_cast<float>(length * glm::dot(Vec3d(direction), camera_.forward()));
 }

@@ -14,10 +14,12 @@ struct Hits {
     std::vector<Surfel>
         surfels;               ///< unit space, normals toward the eye; without a normal where nothing was met
     std::vector<float> depths; ///< along the view axis, scene units
+    std::vector<ObjectId> objects;
 
     void resize(std::size_t samples) {
         surfels.resize(samples);
         depths.resize(samples);
+        objects.resize(samples);
     }
 };
 
@@ -37,8 +39,8 @@ struct RayPrecision {
 ///
 /// The surface is where the field crosses zero, found to a fiftieth of a voxel; normals are central
 /// differences of the field, mirrored to the eye's side where they lean away. Of a two-sided field they are
-/// taken in front of its faces, whichever side is seen: behind them distances jump. Keeps references to both
-/// arguments. Const use is thread-safe.
+/// taken in front of its faces, whichever side is seen: behind them distances jump. Grounds are met exactly. Keeps
+/// references to both arguments. Const use is thread-safe.
 class CameraRays {
   public:
     CameraRays(const Subject& subject, const Camera& camera, int samples);
@@ -79,7 +81,16 @@ class CameraRays {
     };
     using Gradients = std::array<Vec3, RayBatch::capacity>;
 
+    /// Where a ray meets a ground first.
+    struct GroundHit {
+        double distance = std::numeric_limits<double>::infinity(); ///< unit space
+        ObjectId object = no_object;
+    };
+
     Vec3d direction(std::size_t sample) const;
+    GroundHit meet_ground(const Vec3d& ray) const;
+    void set_ground(const Vec3d& ray, const GroundHit& ground, std::size_t at, Hits& hits) const;
+    void name_parts(std::size_t begin, std::size_t end, Hits& hits) const;
     Batch traced(Batch& rays) const;
     void meet(Batch& rays, Hits& hits) const;
     Batch meet_two_sided(Batch& rays, bool last, Hits& hits) const;
@@ -88,6 +99,7 @@ class CameraRays {
     Gradients differences(const Places& places, float h) const;
     void set(const Batch& rays, std::size_t i, const Vec3& gradient, Hits& hits) const;
 
+    const Subject& subject_;
     const AnyField& field_;
     const Camera& camera_;
     Frame frame_;

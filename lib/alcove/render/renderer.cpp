@@ -10,22 +10,26 @@ namespace {
 
 constexpr std::size_t samples_in_strip = std::size_t{1} << 20;
 
-/// Averages the samples of the pixels from `first_pixel` on.
-void resolve(const Hits& hits, const std::vector<float>& ao, const RenderOptions& options,
-             std::size_t first_pixel, std::size_t pixels, Image& image) {
+/// Averages the samples of the pixels from `first_pixel` on. The eye is in unit space.
+void resolve(const Subject& subject, const Vec3d& eye, const Hits& hits, const std::vector<float>& ao,
+             const RenderOptions& options, std::size_t first_pixel, std::size_t pixels, Image& image) {
     const auto samples = static_cast<std::size_t>(options.samples);
     parallel_for(pixels, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t pixel = begin; pixel < end; ++pixel) {
             Vec3 color(0.0f), normal(0.0f);
-            float open = 0.0f, depth = far_depth;
-            int covered = 0;
+            float open = 0.0f, depth = far_depth, covered = 0.0f;
             for (std::size_t s = pixel * samples; s < (pixel + 1) * samples; ++s) {
                 const Surfel& surfel = hits.surfels[s];
                 if (!surfel.has_normal())
                     continue;
-                ++covered;
-                color += shade(options.lighting, surfel.normal, ao[s]);
-                open += ao[s];
+                const ObjectId object = hits.objects[s];
+                const Ground* ground = ground_of(subject, object);
+                const float coverage = ground ? ground->coverage(surfel.position) : 1.0f;
+                const Vec3 to_eye(glm::normalize(eye - Vec3d(surfel.position)));
+                covered += coverage;
+                color += coverage * shade(options.lighting, material_of(subject, object),
+                                          {.normal = surfel.normal, .to_eye = to_eye, .ao = ao[s]});
+                open += coverage * ao[s];
                 if (hits.depths[s] < depth) {
                     depth = hits.depths[s];
                     normal = surfel.normal;
@@ -34,7 +38,7 @@ void resolve(const Hits& hits, const std::vector<float>& ao, const RenderOptions
             const std::size_t i = first_pixel + pixel;
             const float share = 1.0f / static_cast<float>(options.samples);
             image.color[i] = share * color;
-            image.alpha[i] = share * static_cast<float>(covered);
+            image.alpha[i] = share * covered;
             image.ao[i] = share * open;
             image.depth[i] = depth;
             image.normal[i] = normal;
@@ -56,6 +60,8 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
              const Progress& progress) {
     Image image(camera.size().width, camera.size().height);
     const CameraRays rays(subject, camera, options.samples);
+    const AnyField surroundings = subject.surroundings();
+    const Vec3d eye = (camera.eye() - subject.frame.center) / subject.frame.diagonal;
     const auto samples = static_cast<std::size_t>(options.samples);
     const std::size_t strip = std::max<std::size_t>(1, samples_in_strip / samples);
     Hits hits;
@@ -72,9 +78,9 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
         };
         std::vector<float> ao(hits.surfels.size(), 1.0f);
         if (options.method)
-            ao = std::move(bake_channels(hits.surfels, subject.field, *options.method, options.settings,
+            ao = std::move(bake_channels(hits.surfels, surroundings, *options.method, options.settings,
                                          Channel::ao, done)[Channel::ao]);
-        resolve(hits, ao, options, first, pixels, image);
+        resolve(subject, eye, hits, ao, options, first, pixels, image);
         done(1.0);
     }
     return image;

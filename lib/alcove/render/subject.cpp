@@ -1,11 +1,38 @@
 #include "alcove/render/subject.h"
 
 #include "alcove/errors.h"
+#include "alcove/field/combine.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace alcove {
+
+float Ground::coverage(const Vec3& p) const {
+    return std::clamp((gone - glm::length(p)) / (gone - whole), 0.0f, 1.0f);
+}
+
+AnyField Subject::surroundings() const {
+    if (grounds.empty())
+        return field;
+    std::vector<AnyField> all{field};
+    for (const Ground& ground : grounds)
+        all.emplace_back(ground.plane);
+    return UnionOf<AnyField>(std::move(all));
+}
+
+const Ground* ground_of(const Subject& subject, ObjectId object) {
+    const std::size_t parts = std::max<std::size_t>(1, subject.parts.size());
+    return object > parts ? &subject.grounds[object - parts - 1] : nullptr;
+}
+
+const Material& material_of(const Subject& subject, ObjectId object) {
+    static const Material plain;
+    if (const Ground* ground = ground_of(subject, object))
+        return ground->material;
+    return subject.parts.empty() ? plain : subject.parts[object - 1u].material;
+}
 
 Outline outline(const AnyField& field, const Frame& frame) {
     constexpr int cells = 64;

@@ -1,21 +1,55 @@
-/// What is in front of the camera: a field, and where in the scene it is.
+/// What is in front of the camera: fields, where in the scene they are, and what they are made of.
 #pragma once
 
 #include "alcove/field/any_field.h"
+#include "alcove/field/primitives.h"
+#include "alcove/render/shading.h"
 
+#include <limits>
 #include <vector>
 
 namespace alcove {
 
-struct Subject {
+/// One of the things that a field is the union of.
+struct Part {
     AnyField field; ///< unit space
-    Frame frame;    ///< of that unit space
-    Box box;        ///< scene units; nothing outside it is drawn
+    Material material{};
 };
 
-/// The subject of a field without a mesh, within the cube of side 1 around the origin of unit space: cells of
-/// 1/64 that the surface passes through, as points to aim a camera at. \throw InputError if there are none.
-/// Cost: 64³ map() calls.
+/// A plane, seen from its front alone, that vanishes into the background.
+struct Ground {
+    Plane plane; ///< unit space
+    /// Distances from the origin, unit space, within which it is whole and beyond which it is gone.
+    float whole = 50.0f, gone = 100.0f;
+    Material material{};
+
+    /// Its share of a pixel that shows the place p of it.
+    float coverage(const Vec3& p) const;
+};
+
+struct Subject {
+    AnyField field;            ///< of all that is bounded, unit space
+    Frame frame;               ///< of that unit space
+    Box box;                   ///< scene units; nothing of the field is drawn outside it
+    std::vector<Part> parts{}; ///< whose union the field is; of none the field is one part
+    std::vector<Ground> grounds{};
+
+    /// The field and the grounds: what occludes.
+    AnyField surroundings() const;
+};
+
+/// What a sample of an image shows: 0 nothing, 1 to the number of parts one of these, above them a ground.
+using ObjectId = std::uint16_t;
+inline constexpr ObjectId no_object = 0;
+
+/// The material of an object that is one.
+const Material& material_of(const Subject& subject, ObjectId object);
+
+/// The ground that an object is, or null.
+const Ground* ground_of(const Subject& subject, ObjectId object);
+
+/// The surface of a field within the cube of side 1 around the origin of unit space: cells of 1/64 that it passes
+/// through, as points to aim a camera at. \throw InputError if there are none. Cost: 64³ map() calls.
 struct Outline {
     std::vector<Vec3d> points; ///< centres of the cells, scene units
     Box box;                   ///< around the cells

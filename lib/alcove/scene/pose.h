@@ -1,0 +1,27 @@
+/// Where something is, in double precision: what placements come to, one within the other.
+#pragma once
+
+#include "alcove/scene/scene.h"
+
+#include <glm/mat3x3.hpp>
+
+namespace alcove {
+
+/// p' = rotation · (scale · p) + translation.
+struct Pose {
+    glm::dmat3 rotation{1.0}; ///< orthonormal
+    double scale = 1.0;
+    Vec3d translation{0.0};
+
+    Vec3d operator()(const Vec3d& p) const { return rotation * (scale * p) + translation; }
+};
+
+Pose pose_of(const Placement& placement);
+
+/// First the inner, then the outer.
+Pose operator*(const Pose& outer, const Pose& inner);
+
+/// The box around a box that is posed.
+Box posed(const Box& box, const Pose& pose);
+
+}

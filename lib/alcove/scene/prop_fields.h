@@ -1,0 +1,28 @@
+/// From props to fields: meshes voxelized, level sets extended, all placed in the unit space of the scene.
+#pragma once
+
+#include "alcove/field/any_field.h"
+#include "alcove/field/primitives.h"
+#include "alcove/scene/props.h"
+
+namespace alcove {
+
+/// What all fields of a scene have in common.
+struct Stage {
+    Frame frame;         ///< of unit space
+    float radius;        ///< as far as occlusion looks, unit space
+    bool occlusion;      ///< whether it looks at all
+    double memory_limit; ///< bytes that the grids of each prop may take
+    Progress progress{}; ///< of one grid
+};
+
+/// Makes the stack of a mesh, and extends that of a level set as far as occlusion looks. With `inside`, distances of
+/// the inside are right as far, too. Warnings go to the prop. \throw InputError naming the object or its file: what
+/// voxelize() and extend_levels() throw, and a difference or blended union of what is no solid; LimitError as
+/// voxelize().
+AnyField field_of(Prop& prop, const Stage& stage, bool inside = false);
+
+/// That of a prop whose shape is one.
+Plane plane_of(const Prop& prop, const Frame& frame);
+
+}

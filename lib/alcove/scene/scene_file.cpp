@@ -1,0 +1,272 @@
+#include "alcove/scene/scene_file.h"
+
+#include "alcove/errors.h"
+#include "alcove/mesh/file_bytes.h"
+#include "alcove/scene/toml_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace alcove {
+namespace {
+
+using Materials = std::map<std::string, Material>;
+
+/// Puts the value of a key, if there is one, in its place.
+template <class T, class V>
+void take(T& place, std::optional<V> value) {
+    if (value)
+        place = std::move(*value);
+}
+
+/// A number in [0, 1].
+std::optional<float> share(TomlTable& table, std::string_view key) {
+    const std::optional<double> value = table.number(key);
+    if (value && !(*value >= 0.0 && *value <= 1.0))
+        table.fail(key, fmt::format("takes a number from 0 to 1, not {}", *value));
+    return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+}
+
+Material read_material(TomlTable table) {
+    Material material;
+    take(material.color, table.color("color"));
+    take(material.edge_color, table.color("edge_color"));
+    take(material.subsurface, table.color("subsurface"));
+    take(material.reflection, share(table, "reflection"));
+    take(material.occlusion, share(table, "occlusion"));
+    table.check_all_read();
+    return material;
+}
+
+/// The `material` of a table: the name of one, or one in place.
+Material material_of(TomlTable& table, const Materials& materials) {
+    if (!table.has("material"))
+        return {};
+    if (!table.raw()["material"].is_string())
+        return read_material(*table.table("material"));
+    const std::string name = *table.text("material");
+    const auto found = materials.find(name);
+    if (found == materials.end())
+        table.fail("material", fmt::format("names {0}, which is none: add [material.{0}]", name));
+    return found->second;
+}
+
+std::optional<Length> length(TomlTable& table, std::string_view key) {
+    if (!table.has(key))
+        return {};
+    if (table.raw()[key].is_number())
+        return Length{*table.positive(key), Length::Unit::scene};
+    try {
+        return parse_length(*table.text(key));
+    } catch (const InputError& error) {
+        table.fail(key, error.what());
+    }
+}
+
+std::filesystem::path file_of(TomlTable& table, const std::filesystem::path& folder) {
+    const std::optional<std::string> file = table.text("file");
+    if (!file || file->empty())
+        table.fail("", fmt::format("{} needs a file: write file = \"scan.ply\"", table.name()));
+    return folder / *file;
+}
+
+class ObjectReader {
+  public:
+    ObjectReader(const Materials& materials, std::filesystem::path folder)
+        : materials_(materials), folder_(std::move(folder)) {}
+
+    SceneObject read(TomlTable table, const std::string& fallback_name, int depth) const {
+        constexpr int deepest = 32;
+        if (depth > deepest)
+            table.fail("", fmt::format("parts may be nested {} deep", deepest));
+        const std::initializer_list<std::string_view> words{"sphere", "box", "torus", "capsule",   "plane",
+                                                            "mesh",   "vdb", "union", "difference"};
+        const std::optional<std::size_t> shape = table.word("shape", words);
+        if (!shape)
+            table.fail("",
+                       fmt::format("{} needs a shape: write shape = \"sphere\", or another of {}",
+                                   table.name(), "box, torus, capsule, plane, mesh, vdb, union, difference"));
+        SceneObject object;
+        object.name =
+            table.text("name").value_or(fmt::format("{} ({})", fallback_name, words.begin()[*shape]));
+        take(object.placement.translation, table.vector("translate"));
+        take(object.placement.rotation, table.vector("rotate"));
+        take(object.placement.scale, table.positive("scale"));
+        if (depth == 0)
+            object.material = material_of(table, materials_);
+        object.shape = read_shape(table, *shape, object.name, depth);
+        table.check_all_read();
+        return object;
+    }
+
+  private:
+    Shape read_shape(TomlTable& table, std::size_t shape, const std::string& name, int depth) const {
+        switch (shape) {
+        case 0: {
+            SphereShape sphere;
+            take(sphere.center, table.vector("center"));
+            take(sphere.radius, table.positive("radius"));
+            return sphere;
+        }
+        case 1: {
+            BoxShape box;
+            take(box.center, table.vector("center"));
+            take(box.size, table.vector("size"));
+            if (!(std::min({box.size.x, box.size.y, box.size.z}) > 0.0))
+                table.fail("size", "takes three numbers above 0");
+            return box;
+        }
+        case 2: {
+            TorusShape torus;
+            take(torus.center, table.vector("center"));
+            take(torus.ring, table.positive("ring"));
+            take(torus.tube, table.positive("tube"));
+            return torus;
+        }
+        case 3: {
+            CapsuleShape capsule;
+            take(capsule.start, table.vector("start"));
+            take(capsule.end, table.vector("end"));
+            take(capsule.radius, table.positive("radius"));
+            return capsule;
+        }
+        case 4: {
+            PlaneShape plane;
+            take(plane.point, table.vector("point"));
+            take(plane.normal, table.direction("normal"));
+            return plane;
+        }
+        case 5: {
+            MeshShape mesh{file_of(table, folder_), length(table, "voxel")};
+            if (mesh.voxel && (mesh.voxel->unit == Length::Unit::voxels || std::isinf(mesh.voxel->value)))
+                table.fail("voxel", "is what vx stands for: write 0.2 (scene units) or \"0.5%\"");
+            constexpr SignChoice signs[] = {SignChoice::automatic, SignChoice::solid, SignChoice::sheet};
+            if (const auto sign = table.word("sign", {"auto", "signed", "unsigned"}))
+                mesh.sign = signs[*sign];
+            return mesh;
+        }
+        case 6:
+            return GridShape{file_of(table, folder_)};
+        default:
+            return read_composite(table, shape == 7, name, depth);
+        }
+    }
+
+    CompositeShape read_composite(TomlTable& table, bool unite, const std::string& name, int depth) const {
+        using Operation = CompositeShape::Operation;
+        CompositeShape composite;
+        composite.operation = unite ? Operation::unite : Operation::subtract;
+        if (const std::optional<double> width = table.number("blend")) {
+            if (!(*width >= 0.0))
+                table.fail("blend", "takes a width of 0 or more, scene units");
+            composite.blend = *width;
+        }
+        for (TomlTable& part : table.tables("part"))
+            composite.parts.push_back(read(
+                std::move(part), fmt::format("{}, part {}", name, composite.parts.size() + 1), depth + 1));
+        if (composite.parts.empty())
+            table.fail("", fmt::format("{} needs parts: write [[object.part]] below it, once for each",
+                                       table.name()));
+        return composite;
+    }
+
+    const Materials& materials_;
+    std::filesystem::path folder_;
+};
+
+void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
+    if (const std::optional<std::string> name = table.text("method")) {
+        try {
+            occlusion.method = *name == "none" ? nullptr : &find_method(*name);
+        } catch (const InputError& unknown) {
+            table.fail("method", std::string(": ") + unknown.what());
+        }
+    }
+    take(occlusion.radius, length(table, "radius"));
+    if (occlusion.method)
+        for (const ParameterInfo& parameter : occlusion.method->parameters()) {
+            const std::optional<double> value =
+                parameter.flag ? table.flag(parameter.name) : table.number(parameter.name);
+            if (!value)
+                continue;
+            occlusion.parameters.emplace_back(parameter.name, *value);
+            try {
+                check_settings(std::array{occlusion.method}, {.parameters = {occlusion.parameters.back()}});
+            } catch (const InputError& wrong) {
+                table.fail(parameter.name, std::string(": ") + wrong.what());
+            }
+        }
+    table.check_all_read();
+}
+
+void read_camera(TomlTable table, CameraOptions& camera) {
+    take(camera.eye, table.vector("eye"));
+    take(camera.look_at, table.vector("look_at"));
+    take(camera.up, table.direction("up"));
+    if (const std::optional<double> fov = table.number("fov")) {
+        if (!(*fov >= 1.0 && *fov <= 170.0))
+            table.fail("fov", fmt::format("takes 1 to 170 degrees across the image, not {}", *fov));
+        camera.fov = *fov;
+    }
+    if (camera.eye && camera.look_at && *camera.eye == *camera.look_at)
+        table.fail("look_at", "is the eye itself: move one of them");
+    table.check_all_read();
+}
+
+void read_image(TomlTable table, Scene& scene) {
+    take(scene.size.width, table.count("width", 1, longest_side));
+    take(scene.size.height, table.count("height", 1, longest_side));
+    take(scene.samples, table.count("samples", 1, 1024));
+    table.check_all_read();
+}
+
+Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
+    Scene scene;
+    Materials materials;
+    if (std::optional<TomlTable> named = table.table("material"))
+        for (auto& [name, material] : named->named_tables())
+            materials.emplace(name, read_material(std::move(material)));
+    const ObjectReader objects(materials, folder);
+    for (TomlTable& object : table.tables("object"))
+        scene.objects.push_back(
+            objects.read(std::move(object), fmt::format("object {}", scene.objects.size() + 1), 0));
+    if (std::optional<TomlTable> ground = table.table("ground")) {
+        scene.ground = SceneGround{material_of(*ground, materials), ground->number("height")};
+        ground->check_all_read();
+    }
+    if (std::optional<TomlTable> sun = table.table("sun")) {
+        take(scene.light.toward_sun, sun->direction("direction"));
+        take(scene.light.sun, sun->color("color"));
+        sun->check_all_read();
+    }
+    if (std::optional<TomlTable> sky = table.table("sky")) {
+        take(scene.light.sky, sky->color("color"));
+        take(scene.light.bounce, sky->color("bounce"));
+        sky->check_all_read();
+    }
+    if (std::optional<TomlTable> occlusion = table.table("occlusion"))
+        read_occlusion(std::move(*occlusion), scene.occlusion);
+    if (std::optional<TomlTable> camera = table.table("camera"))
+        read_camera(std::move(*camera), scene.camera);
+    if (std::optional<TomlTable> image = table.table("image"))
+        read_image(std::move(*image), scene);
+    table.check_all_read();
+    return scene;
+}
+
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+    const FileBytes bytes(file);
+    try {
+        const toml::table root = toml::parse(bytes.view(), file.string());
+        return read_tables(TomlTable(root, file.string(), "the scene"), file.parent_path());
+    } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}:{}: is no TOML here: {}", file.string(), error.source().begin.line,
+                                     error.description()));
+    }
+}
+
+}

@@ -1,0 +1,107 @@
+#include "program.h"
+
+#include <algorithm>
+
+namespace alcove::test {
+namespace {
+
+class RenderVerb : public ProgramTest {
+  protected:
+    /// Draws small and quickly.
+    Outcome draw(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "render");
+        for (const char* word : {"--size", "64x48", "--pixel-samples", "1", "--json"})
+            arguments.emplace_back(word);
+        return run(std::move(arguments));
+    }
+};
+
+const char* const scene_toml = R"(
+[image]
+width = 80
+height = 60
+samples = 2
+[camera]
+eye = [0, 3, -6]
+look_at = [0, 0.7, 0]
+[occlusion]
+method = "hemisphere"
+radius = 0.5
+samples = 8
+[ground]
+[[object]]
+shape = "difference"
+part = [{ shape = "sphere" }, { shape = "box", translate = [0, 1, 0] }]
+[[object]]
+shape = "mesh"
+file = "cube.off"
+translate = [3, 0, 0]
+)";
+
+TEST_F(RenderVerb, DrawsAScene) {
+    write("cube.off", cube_off);
+    write("scene.toml", scene_toml);
+    const Outcome drawn = run({"render", "scene.toml", "-o", "a.exr", "--json"});
+    ASSERT_EQ(drawn.code, done) << drawn.err;
+    const auto result = drawn.json();
+    EXPECT_EQ(result["width"], 80);
+    EXPECT_EQ(result["height"], 60);
+    EXPECT_EQ(result["method"], "hemisphere");
+    EXPECT_NEAR(result["radius"].get<double>(), 0.5, 1e-6);
+    EXPECT_EQ(result["camera"]["eye"], nlohmann::json::parse("[0.0, 3.0, -6.0]"));
+    EXPECT_GT(result["covered_pixels"], 2000);
+    EXPECT_GT(result["voxel"], 0.0);
+}
+
+TEST_F(RenderVerb, TheCommandLineGoesBeforeTheScene) {
+    write("cube.off", cube_off);
+    write("scene.toml", scene_toml);
+    const Outcome drawn = draw({"scene.toml", "-o", "a.png", "--method", "classic", "--radius", "0.25",
+                                "--eye", "0,2,5", "--fov", "30", "--no-ground"});
+    ASSERT_EQ(drawn.code, done) << drawn.err;
+    const auto result = drawn.json();
+    EXPECT_EQ(result["width"], 64);
+    EXPECT_EQ(result["method"], "classic");
+    EXPECT_NEAR(result["radius"].get<double>(), 0.25, 1e-6);
+    EXPECT_EQ(result["camera"]["eye"], nlohmann::json::parse("[0.0, 2.0, 5.0]"));
+    EXPECT_NEAR(result["camera"]["fov"].get<double>(), 30.0, 1e-9);
+    EXPECT_LT(result["covered_pixels"], 64 * 48 / 2);
+}
+
+TEST_F(RenderVerb, ABareMeshStandsOnAGroundUnlessToldOtherwise) {
+    write("cube.off", cube_off);
+    const Outcome with = draw({"cube.off", "-o", "a.png"}),
+                  without = draw({"cube.off", "-o", "b.png", "--no-ground"});
+    ASSERT_EQ(with.code, done) << with.err;
+    ASSERT_EQ(without.code, done) << without.err;
+    EXPECT_GT(with.json()["covered_pixels"], without.json()["covered_pixels"].get<int>() + 200);
+}
+
+TEST_F(RenderVerb, FilesOfASceneAreFoundFromItsFolder) {
+    std::filesystem::create_directory(folder_ / "work/sub");
+    write("sub/cube.off", cube_off);
+    write("sub/scene.toml", "[[object]]\nshape = \"mesh\"\nfile = \"cube.off\"\n");
+    EXPECT_EQ(draw({"sub/scene.toml", "-o", "a.png"}).code, done);
+}
+
+TEST_F(RenderVerb, WrongScenesAreNamedWithTheMend) {
+    write("typo.toml", "[[object]]\nshape = \"sphere\"\nradus = 2\n");
+    expect_refusal({"render", "typo.toml", "-o", "a.png"}, bad_input, {"typo.toml:3", "radus", "radius"});
+    write("lost.toml", "[[object]]\nshape = \"mesh\"\nfile = \"lost.ply\"\n");
+    expect_refusal({"render", "lost.toml", "-o", "a.png"}, bad_input, {"lost.ply", "cannot be opened"});
+    write("open.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    write("cut.toml",
+          "[[object]]\nshape = \"difference\"\npart = [{ shape = \"box\" }, { shape = \"mesh\", file = "
+          "\"open.off\" }]\n");
+    expect_refusal({"render", "cut.toml", "-o", "a.png"}, bad_input, {"part 2 (mesh)", "is open", "signed"});
+    write("cube.toml", "[[object]]\nshape = \"box\"\n");
+    expect_refusal({"render", "cube.toml", "-o", "a.png", "--voxel", "1%"}, usage, {"--voxel", "cube.toml"});
+    expect_refusal({"render", "cube.toml", "-o", "a.png", "--size", "4x"}, usage, {"--size", "1280x720"});
+    expect_refusal({"render", "cube.toml", "-o", "a.png", "--pixel-samples", "0"}, usage,
+                   {"--pixel-samples"});
+    const std::vector<std::string> left = files();
+    EXPECT_EQ(std::count(left.begin(), left.end(), "a.png"), 0);
+}
+
+}
+}
