@@ -41,6 +41,7 @@ set(alcove_internal_headers
     occlusion/triangle_pairs.h
     radix_sort.h
     render/camera_rays.h
+    render/cones.h
     resident_memory.h
     scene/pose.h
     scene/prop_fields.h

@@ -235,6 +235,20 @@ TEST(Renderer, ThreadsDoNotMatter) {
     EXPECT_EQ(one, file_with(2, "two.exr"));
 }
 
+TEST(Renderer, APixelOfManySamplesIsDrawnInPieces) {
+    // More samples a row than are worked on at once.
+    const ImageSize size{1500, 3};
+    const Camera camera = camera_at(center + Vec3(0.0f, 0.0f, 1.0f), center, size);
+    const Image many = render(sphere(), camera, {.samples = 1000}),
+                few = render(sphere(), camera, {.samples = 9});
+    for (std::size_t i = 0; i < many.pixels(); ++i) {
+        EXPECT_NEAR(many.alpha[i], few.alpha[i], 0.2f);
+        if (few.alpha[i] == 1.0f) {
+            EXPECT_NEAR(many.color[i].x, few.color[i].x, 2e-2f);
+        }
+    }
+}
+
 TEST(Renderer, ProgressRunsToTheEnd) {
     const Camera camera = camera_at(center + Vec3(0.0f, 0.0f, 1.0f), center, {64, 48});
     double last = 0.0;

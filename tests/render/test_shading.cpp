@@ -24,7 +24,8 @@ TEST(Shading, IsTheFormulaOfItsSource) {
         lighting.key = {1.0f, 0.5f, 0.25f};
         lighting.sky = {0.2f, 0.3f, 0.5f};
         lighting.ground = {0.1f, 0.4f, 0.3f};
-        const Vec3 color = shade(lighting, {.color = Vec3(1.0f)}, {.normal = Vec3(n), .ao = static_cast<float>(ao)});
+        const Vec3 color =
+            shade(lighting, {.color = Vec3(1.0f)}, {.normal = Vec3(n), .ao = static_cast<float>(ao)});
         // direct + ambient·ao·(½ + ½ n_y) + bounce·clamp(−n_y)·ao
         const double ny = n.x * up.x + n.y * up.y + n.z * up.z;
         const double facing = std::fmax(0.0, n.x * light.x + n.y * light.y + n.z * light.z);

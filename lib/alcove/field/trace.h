@@ -16,6 +16,9 @@ struct TraceOptions {
     float hit_distance = 1e-4f; ///< the surface is reached where map() answers less
     float shortest_step = 1e-4f;
     int max_steps = 1024; ///< a ray that is not done by then is a miss
+    /// Steps are this many times as long as the distance, in [1, 2); one that went further than both distances tell to
+    /// be free is taken back, and the ray goes on as if it were 1. B. Keinert et al., "Enhanced Sphere Tracing" (2014).
+    float relaxation = 1.0f;
     /// The negative side is air too, its distances are minus those to the surface, and the sign may also jump
     /// where there is no surface: the surface is where the distance is small, or where its sign changes and
     /// the way was long enough to have crossed it. Set for fields that are two_sided().
@@ -44,7 +47,7 @@ struct RayBatch {
 /// Marches all rays of the batch. Cost: `steps` map() calls a ray.
 template <Field F>
 void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
-    RayBatch::Values x, y, z, distance, previous, stepped;
+    RayBatch::Values x, y, z, distance, previous, stepped, relaxation;
     std::array<std::uint16_t, RayBatch::capacity> active;
     std::size_t count = rays.count;
     for (std::size_t i = 0; i < count; ++i) {
@@ -52,7 +55,9 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
         rays.hit[i] = false;
         rays.steps[i] = 0;
         previous[i] = stepped[i] = 0.0f;
+        relaxation[i] = options.relaxation;
     }
+    const bool relaxes = options.relaxation > 1.0f && !options.two_sided;
     const auto meets = [&](std::size_t i, float d) {
         if (!options.two_sided)
             return d < options.hit_distance;
@@ -75,6 +80,13 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
             const std::uint16_t i = active[k];
             const float d = distance[k];
             ++rays.steps[i];
+            if (relaxes && relaxation[i] > 1.0f && stepped[i] > options.shortest_step &&
+                previous[i] + d < stepped[i]) {
+                rays.travelled[i] -= stepped[i] - std::max(previous[i], options.shortest_step);
+                relaxation[i] = 1.0f;
+                active[left++] = i;
+                continue;
+            }
             if (meets(i, d)) {
                 rays.hit[i] = true;
                 continue;
@@ -84,6 +96,9 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
             // step went through.
             constexpr float caution = 0.85f;
             stepped[i] = std::max(options.two_sided ? caution * std::fabs(d) : d, options.shortest_step);
+            // A step that would end beyond `far` could not be taken back.
+            if (relaxes && rays.travelled[i] + relaxation[i] * d < options.far)
+                stepped[i] = std::max(relaxation[i] * d, options.shortest_step);
             rays.travelled[i] += stepped[i];
             active[left] = i;
             left += rays.travelled[i] < options.far;

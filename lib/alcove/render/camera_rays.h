@@ -3,11 +3,26 @@
 
 #include "alcove/field/trace.h"
 #include "alcove/render/camera.h"
+#include "alcove/render/cones.h"
 #include "alcove/render/subject.h"
 
+#include <span>
 #include <vector>
 
 namespace alcove {
+
+/// A rectangle of the image.
+struct PixelRegion {
+    int x = 0, y = 0; ///< of its upper left pixel
+    int width = 0, height = 0;
+
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    /// Squares that cover it, those at its right and lower edge cut.
+    std::size_t tiles(int side) const {
+        return static_cast<std::size_t>((width + side - 1) / side) *
+               static_cast<std::size_t>((height + side - 1) / side);
+    }
+};
 
 /// What samples of an image met, one after the other.
 struct Hits {
@@ -45,9 +60,13 @@ class CameraRays {
   public:
     CameraRays(const Subject& subject, const Camera& camera, int samples);
 
-    /// Traces the samples [begin, end), counted through the pixels row by row, into `hits` from place `at`
-    /// on. Cost: 5–30 map() calls a ray and 10 a hit; 22 a hit of a two-sided field.
-    void trace(std::size_t begin, std::size_t end, std::size_t at, Hits& hits) const;
+    /// Pixels are traced in tiles of this side, whose rays start together.
+    static constexpr int tile_side = 8;
+
+    /// Traces the tiles [begin, end) of a region, counted row by row from its upper left, into `hits` of the region:
+    /// those of a pixel after each other, pixels row by row. Cost: up to 48 map() calls a tile, 3–15 a ray near the
+    /// surface and 10 a hit; 22 a hit of a two-sided field.
+    void trace(const PixelRegion& region, std::size_t begin, std::size_t end, Hits& hits) const;
 
   private:
     using Values = RayBatch::Values;
@@ -87,10 +106,13 @@ class CameraRays {
         ObjectId object = no_object;
     };
 
-    Vec3d direction(std::size_t sample) const;
+    Cone cone_around(const PixelRegion& tile) const;
+    void trace_tile(const PixelRegion& tile, const PixelRegion& region, double start, Batch& rays,
+                    Hits& hits) const;
+    void flush(Batch& rays, Hits& hits) const;
     GroundHit meet_ground(const Vec3d& ray) const;
     void set_ground(const Vec3d& ray, const GroundHit& ground, std::size_t at, Hits& hits) const;
-    void name_parts(std::size_t begin, std::size_t end, Hits& hits) const;
+    void name_parts(std::span<const std::size_t> places, Hits& hits) const;
     Batch traced(Batch& rays) const;
     void meet(Batch& rays, Hits& hits) const;
     Batch meet_two_sided(Batch& rays, bool last, Hits& hits) const;
@@ -104,10 +126,12 @@ class CameraRays {
     const Camera& camera_;
     Frame frame_;
     RayPrecision precision_;
-    int samples_;
     bool two_sided_;
-    Vec3d eye_, low_, high_; // unit space
-    float far_;              // longer than any way through the box
+    Vec3d eye_, low_, high_;   // unit space
+    float far_;                // longer than any way through the box
+    double nearest_;           // no ray is in the box before this length, unit space
+    double furthest_;          // nor after this one
+    std::vector<Vec2> within_; // the places of the samples in a pixel
 };
 
 }

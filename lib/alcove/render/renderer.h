@@ -24,7 +24,7 @@ struct RenderOptions {
 /// A key light from the upper left in front of whatever the camera looks at, under a sky in direction `up`.
 Lighting studio_lighting(const Camera& camera, const Vec3d& up);
 
-/// Draws in strips of a million samples, so memory stays that of the image and about 100 MB. All values are
+/// Draws in regions of a million samples, so memory stays that of the image and about 100 MB. All values are
 /// finite. Cost: that of the rays (camera_rays.h), and the estimator's for each that meets the surface.
 Image render(const Subject& subject, const Camera& camera, const RenderOptions& options,
              const Progress& progress = {});

@@ -33,11 +33,11 @@ struct Lighting {
 
 /// What a surface makes of light.
 struct Material {
-    Vec3 color{0.8f};                  ///< share of the light that it gives back, in [0, 1]
-    std::optional<Vec3> edge_color{};  ///< of convex edges
-    Vec3 subsurface{0.0f};             ///< light that comes from within where nothing occludes
-    float reflection = 0.0f;           ///< of the sky at grazing angles, in [0, 1]
-    float occlusion = 1.0f;            ///< multiplies the computed ao, in [0, 1]
+    Vec3 color{0.8f};                 ///< share of the light that it gives back, in [0, 1]
+    std::optional<Vec3> edge_color{}; ///< of convex edges
+    Vec3 subsurface{0.0f};            ///< light that comes from within where nothing occludes
+    float reflection = 0.0f;          ///< of the sky at grazing angles, in [0, 1]
+    float occlusion = 1.0f;           ///< multiplies the computed ao, in [0, 1]
 };
 
 /// What is known of a place of the surface.
