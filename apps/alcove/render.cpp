@@ -7,11 +7,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 namespace alcove::cli {
@@ -22,15 +22,34 @@ struct Options {
     SceneRequest scene;
     std::string output;
     std::vector<std::string> passes;
+    std::string precision = "half";
 };
 
-Pass parse_pass(const std::string& text) {
-    static const std::map<std::string_view, Pass> passes{
-        {"beauty", Pass::beauty}, {"ao", Pass::ao}, {"normal", Pass::normal}, {"depth", Pass::depth}};
-    const auto found = passes.find(text);
-    if (found == passes.end())
-        throw UsageError(fmt::format("there is no pass '{}'; there are: beauty, ao, normal, depth", text));
-    return found->second;
+/// The passes that are wanted: those that are named, `all`, or the standard ones. \throw UsageError for an unknown one.
+PassSet parse_passes(const std::vector<std::string>& names) {
+    PassSet wanted;
+    for (const std::string& name : names) {
+        bool known = false;
+        for (const PassInfo& info : all_passes)
+            if (name == info.name || name == "all") {
+                wanted = wanted | info.pass;
+                known = true;
+            }
+        if (!known) {
+            std::vector<std::string_view> all;
+            for (const PassInfo& info : all_passes)
+                all.push_back(info.name);
+            throw UsageError(
+                fmt::format("there is no pass '{}'; there are: {}, all", name, fmt::join(all, ", ")));
+        }
+    }
+    return wanted;
+}
+
+Precision parse_precision(const std::string& name) {
+    if (name != "half" && name != "float")
+        throw UsageError(fmt::format("--precision takes half or float, not '{}'", name));
+    return name == "half" ? Precision::half : Precision::single;
 }
 
 nlohmann::ordered_json triple(const Vec3d& v) {
@@ -46,17 +65,20 @@ void run(const Options& options) {
         throw UsageError(
             fmt::format("{}: an image is written as .exr or .png; name the output so", options.output));
     const AtomicFile probe(options.output);
-    std::vector<Pass> passes;
-    for (const std::string& pass : options.passes)
-        passes.push_back(parse_pass(pass));
-    if (format == ".png" && passes.size() > 1)
+    const bool png = format == ".png";
+    const PassSet named = parse_passes(options.passes);
+    const PassSet wanted = !named.empty() ? named : png ? PassSet(Pass::beauty) : standard_passes;
+    const auto shown = std::find_if(all_passes.begin(), all_passes.end(),
+                                    [&](const PassInfo& info) { return wanted.has(info.pass); });
+    if (png && wanted != shown->pass)
         throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which holds all");
-    const Scene scene = requested_scene(options.scene);
+    const Precision precision = parse_precision(options.precision);
+    const Scene scene = requested_scene(options.scene, wanted);
     const std::string_view method = scene.occlusion.method ? scene.occlusion.method->name : "none";
 
     const Staged staged = [&] {
         ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");
-        return stage(scene, std::ref(voxelizing));
+        return stage(scene, wanted, std::ref(voxelizing));
     }();
     seconds["scene"] = watch.lap();
 
@@ -64,13 +86,14 @@ void run(const Options& options) {
     Image image;
     {
         ProgressMeter drawing(options.common.progress_mode(), "rendering");
-        image = render(staged.subject, camera, rendering_of(scene, staged, camera), std::ref(drawing));
+        image =
+            render(staged.subject, camera, rendering_of(scene, staged, camera, wanted), std::ref(drawing));
     }
     seconds["render"] = watch.lap();
 
     const double radius = staged.radius * staged.subject.frame.diagonal;
-    if (format == ".png") {
-        write_png(image, options.output, passes.empty() ? Pass::beauty : passes.front());
+    if (png) {
+        write_png(image, options.output, shown->pass);
     } else {
         ImageHeader header;
         header.world_to_camera = camera.world_to_camera();
@@ -80,7 +103,7 @@ void run(const Options& options) {
         header.comments = fmt::format("{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
                                       std::filesystem::path(options.scene.input).filename().string(), method,
                                       radius, staged.voxel);
-        write_exr(image, options.output, header);
+        write_exr(image, options.output, header, precision);
     }
     seconds["write"] = watch.lap();
 
@@ -120,10 +143,15 @@ void add_render(CLI::App& program) {
     auto* verb = program.add_subcommand("render", "Draw a scene, mesh or level set with ambient occlusion");
     auto options = std::make_shared<Options>();
     add_scene_options(*verb, options->scene);
-    verb->add_option("-o,--output", options->output, "Image to write (exr with all passes, or png)")
-        ->required();
-    verb->add_option("--pass", options->passes, "What a png shows: beauty (default), ao, normal or depth")
+    verb->add_option("-o,--output", options->output, "Image to write (exr, or png of one pass)")->required();
+    verb->add_option(
+            "--pass", options->passes,
+            "What the image shows: beauty, ao, depth, normal (of an exr, these four by default), position, "
+            "convexity, shadow, steps, object, or all; a png shows one. Give it again for more")
         ->option_text("NAME");
+    verb->add_option("--precision", options->precision, "Of the colours of an exr: half or float")
+        ->type_name("NAME")
+        ->capture_default_str();
     add_common_options(*verb, options->common);
     verb->footer("Examples:\n"
                  "  alcove render scan.ply -o scan.png\n"

@@ -30,9 +30,9 @@ ImageSize parse_size(const std::string& text) {
     return size;
 }
 
-void check_size(const ImageSize& size) {
+void check_size(const ImageSize& size, PassSet passes) {
     // Beside the image, its encoded form is in memory once more.
-    const double bytes = 2.0 * Image::bytes_per_pixel * size.width * size.height;
+    const double bytes = 2.0 * Image::bytes_per_pixel(passes) * size.width * size.height;
     if (bytes > memory_limit || std::max(size.width, size.height) > longest_side)
         throw UsageError(
             fmt::format("a picture of {}x{} pixels takes about {:.3g} GB; the limits are {:.0f} GB and {} "
@@ -95,6 +95,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     verb.add_option("--up", request.up, "Which way is up")->type_name("X,Y,Z")->default_str("0,1,0");
     verb.add_option("--fov", request.fov, "Degrees across the width")->type_name("DEG")->default_str("40");
     verb.add_flag("--no-ground", request.no_ground, "Without the plane below the lowest point");
+    verb.add_flag("--no-shadow", request.no_shadow, "The sun shines through everything");
     add_grid_options(verb, request.grid);
     verb.parse_complete_callback([&verb, &request] {
         request.radius_given = verb.count("--radius") > 0;
@@ -102,7 +103,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     });
 }
 
-Scene requested_scene(const SceneRequest& request) {
+Scene requested_scene(const SceneRequest& request, PassSet passes) {
     const bool described = extension(request.input) == ".toml";
     Scene scene = described ? read_scene(request.input) : scene_of(request.input);
     MeshShape* mesh = described ? nullptr : std::get_if<MeshShape>(&scene.objects.front().shape);
@@ -115,9 +116,11 @@ Scene requested_scene(const SceneRequest& request) {
     }
     if (request.no_ground)
         scene.ground.reset();
+    if (request.no_shadow)
+        scene.light.shadow.reset();
     if (!request.size.empty())
         scene.size = parse_size(request.size);
-    check_size(scene.size);
+    check_size(scene.size, passes);
     scene.samples = request.pixel_samples.value_or(scene.samples);
     choose_occlusion(request, scene.occlusion);
     aim(request, scene.camera);

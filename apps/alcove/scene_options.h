@@ -4,6 +4,7 @@
 #include "method_options.h"
 #include "voxelized.h"
 
+#include "alcove/render/passes.h"
 #include "alcove/scene/scene.h"
 
 #include <optional>
@@ -18,14 +19,14 @@ struct SceneRequest {
     std::string size, eye, look_at, up;              ///< empty: those of the scene
     std::optional<double> fov{};
     std::optional<int> pixel_samples{};
-    bool no_ground = false;
+    bool no_ground = false, no_shadow = false;
 };
 
 /// Adds the input, and the options of all these.
 void add_scene_options(CLI::App& verb, SceneRequest& request);
 
-/// A .toml is a scene, a .vdb a level set, all else a mesh; these are seen on a ground. \throw UsageError, and what
+/// The passes tell how much memory the picture takes. A .toml is a scene, a .vdb a level set, all else a mesh; these are seen on a ground. \throw UsageError, and what
 /// read_scene() throws.
-Scene requested_scene(const SceneRequest& request);
+Scene requested_scene(const SceneRequest& request, PassSet passes);
 
 }

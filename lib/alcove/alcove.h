@@ -12,6 +12,7 @@
 ///     write_mesh(mesh, "dragon_ao.ply");
 #pragma once
 
+#include "alcove/enum_set.h"
 #include "alcove/errors.h"
 #include "alcove/length.h"
 #include "alcove/parallel.h"
@@ -75,8 +76,10 @@
 #include "alcove/render/camera.h"
 #include "alcove/render/image.h"
 #include "alcove/render/painted.h"
+#include "alcove/render/passes.h"
 #include "alcove/render/renderer.h"
 #include "alcove/render/shading.h"
+#include "alcove/render/soft_shadow.h"
 #include "alcove/render/subject.h"
 
 #include "alcove/scene/scene.h"

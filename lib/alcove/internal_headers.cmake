@@ -42,6 +42,7 @@ set(alcove_internal_headers
     radix_sort.h
     render/camera_rays.h
     render/cones.h
+    render/hit_values.h
     resident_memory.h
     scene/pose.h
     scene/prop_fields.h

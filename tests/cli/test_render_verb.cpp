@@ -77,6 +77,28 @@ TEST_F(RenderVerb, ABareMeshStandsOnAGroundUnlessToldOtherwise) {
     EXPECT_GT(with.json()["covered_pixels"], without.json()["covered_pixels"].get<int>() + 200);
 }
 
+TEST_F(RenderVerb, WritesThePassesThatAreAskedFor) {
+    write("cube.off", cube_off);
+    const auto channels = [&](const std::string& file) {
+        std::string names;
+        const auto listed = run({"info", file, "--json"}).json();
+        for (const auto& channel : listed["channels"])
+            names += channel["name"].get<std::string>() + " ";
+        return names;
+    };
+    ASSERT_EQ(draw({"cube.off", "-o", "a.exr"}).code, done);
+    EXPECT_EQ(channels("a.exr"), "A AO.B AO.G AO.R B G N.X N.Y N.Z R Z ");
+    ASSERT_EQ(draw({"cube.off", "-o", "b.exr", "--pass", "depth", "--pass", "object"}).code, done);
+    EXPECT_EQ(channels("b.exr"), "A Object.V Z ");
+    ASSERT_EQ(draw({"cube.off", "-o", "c.exr", "--pass", "all", "--precision", "float"}).code, done);
+    EXPECT_NE(channels("c.exr").find("Convexity.R"), std::string::npos);
+    expect_refusal({"render", "cube.off", "-o", "d.exr", "--pass", "depht"}, usage,
+                   {"depht", "depth", "shadow"});
+    expect_refusal({"render", "cube.off", "-o", "d.png", "--pass", "ao", "--pass", "depth"}, usage,
+                   {"one pass"});
+    expect_refusal({"render", "cube.off", "-o", "d.exr", "--precision", "double"}, usage, {"half or float"});
+}
+
 TEST_F(RenderVerb, FilesOfASceneAreFoundFromItsFolder) {
     std::filesystem::create_directory(folder_ / "work/sub");
     write("sub/cube.off", cube_off);

@@ -14,19 +14,29 @@
 
 #include <cmath>
 #include <set>
+#include <sstream>
 
 namespace alcove {
 namespace {
 
-Image pattern(int width, int height) {
-    Image image(width, height);
+Image pattern(int width, int height, PassSet wanted = standard_passes) {
+    Image image(width, height, wanted);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const auto t = static_cast<float>(i);
-        image.color[i] = {0.01f * t, 0.5f, 1.0f / (1.0f + t)};
+        const auto set = [&](Pass pass, auto& values, const auto& value) {
+            if (wanted.has(pass))
+                values[i] = value;
+        };
         image.alpha[i] = i % 3 == 0 ? 0.0f : 1.0f;
-        image.ao[i] = 1.0f / (2.0f + t);
-        image.depth[i] = i % 3 == 0 ? far_depth : 100.0f + 0.001f * t;
-        image.normal[i] = glm::normalize(Vec3(t, 1.0f, -2.0f));
+        set(Pass::beauty, image.color, Vec3(0.01f * t, 0.5f, 1.0f / (1.0f + t)));
+        set(Pass::ao, image.ao, 1.0f / (2.0f + t));
+        set(Pass::convexity, image.convexity, 1.0f / (3.0f + t));
+        set(Pass::shadow, image.shadow, 1.0f / (4.0f + t));
+        set(Pass::steps, image.steps, 0.25f * t);
+        set(Pass::object, image.object, static_cast<float>(i % 3));
+        set(Pass::depth, image.depth, i % 3 == 0 ? far_depth : 100.0f + 0.001f * t);
+        set(Pass::normal, image.normal, glm::normalize(Vec3(t, 1.0f, -2.0f)));
+        set(Pass::position, image.position, Vec3(t, -t, 0.1f * t));
     }
     return image;
 }
@@ -72,6 +82,58 @@ TEST(Exr, HoldsEveryPass) {
         EXPECT_NEAR(ao_r[i], image.ao[i], 1e-3f * image.ao[i]);
         EXPECT_EQ(ao_b[i], ao_r[i]);
     }
+}
+
+PassSet everything() {
+    PassSet all;
+    for (const PassInfo& info : all_passes)
+        all = all | info.pass;
+    return all;
+}
+
+std::set<std::string> channels_of(const std::filesystem::path& file) {
+    const Imf::InputFile opened(file.c_str());
+    std::set<std::string> names;
+    for (auto c = opened.header().channels().begin(); c != opened.header().channels().end(); ++c)
+        names.insert(c.name());
+    return names;
+}
+
+TEST(Exr, HasTheChannelsThatEachPassNames) {
+    const ScratchFolder folder;
+    for (const PassInfo& info : all_passes) {
+        write_exr(pattern(5, 4, info.pass), folder / "a.exr", {});
+        std::set<std::string> expected{"A"};
+        std::istringstream words{std::string(info.channels)};
+        for (std::string word; words >> word;)
+            expected.insert(word);
+        EXPECT_EQ(channels_of(folder / "a.exr"), expected) << info.name;
+    }
+    write_exr(pattern(5, 4, everything()), folder / "a.exr", {});
+    EXPECT_EQ(channels_of(folder / "a.exr").size(), 22u);
+}
+
+TEST(Exr, KeepsColoursInSinglePrecisionWhereAsked) {
+    const ScratchFolder folder;
+    const Image image = pattern(13, 7, everything());
+    write_exr(image, folder / "a.exr", {}, Precision::single);
+    Imf::InputFile file((folder / "a.exr").c_str());
+    EXPECT_EQ(channel(file, "AO.G", image), image.ao);
+    EXPECT_EQ(channel(file, "Shadow.R", image), image.shadow);
+    EXPECT_EQ(channel(file, "Convexity.B", image), image.convexity);
+    EXPECT_EQ(channel(file, "Steps.V", image), image.steps);
+    EXPECT_EQ(channel(file, "Object.V", image), image.object);
+    EXPECT_EQ(channel(file, "R", image)[7], image.color[7].x);
+    EXPECT_EQ(channel(file, "P.Y", image)[7], image.position[7].y);
+}
+
+TEST(Images, HoldOnlyTheirPasses) {
+    const Image image(4, 3, Pass::ao);
+    EXPECT_EQ(image.alpha.size(), 12u);
+    EXPECT_EQ(image.ao.size(), 12u);
+    EXPECT_TRUE(image.color.empty() && image.depth.empty() && image.position.empty());
+    EXPECT_EQ(Image::bytes_per_pixel(Pass::ao), 8.0);
+    EXPECT_EQ(Image::bytes_per_pixel(Pass::beauty | Pass::normal), 28.0);
 }
 
 TEST(Exr, HeaderTellsTheCamera) {
@@ -125,8 +187,8 @@ Decoded decode(const std::filesystem::path& file) {
 
 TEST(Png, HasSignatureAndSize) {
     const ScratchFolder folder;
-    for (const Pass pass : {Pass::beauty, Pass::ao, Pass::normal, Pass::depth}) {
-        write_png(pattern(33, 21), folder / "a.png", pass);
+    for (const auto& [pass, name, channels, summary] : all_passes) {
+        write_png(pattern(33, 21, pass), folder / "a.png", pass);
         EXPECT_EQ(bytes_of(folder / "a.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
         const Decoded image = decode(folder / "a.png");
         EXPECT_EQ(image.width, 33);

@@ -4,6 +4,7 @@
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "alcove/parallel.h"
+#include "exact_subject.h"
 #include "scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -14,25 +15,11 @@
 namespace alcove {
 namespace {
 
-/// Exact shapes, as if they were the unit space of a scene five times as large and elsewhere.
-const Frame frame{{10.0, -20.0, 30.0}, 5.0};
-
-Subject subject_of(AnyField field, const Vec3& low, const Vec3& high) {
-    Box box;
-    box.add(frame.to_scene(low));
-    box.add(frame.to_scene(high));
-    return {std::move(field), frame, box};
-}
-
 constexpr float radius = 0.25f; // unit space
 const Vec3 center(0.05f, -0.02f, 0.1f);
 
 Subject sphere() {
     return subject_of(Sphere{center, radius}, center - radius, center + radius);
-}
-
-Camera camera_at(const Vec3& eye, const Vec3& target, ImageSize size, double fov = 40.0) {
-    return Camera(frame.to_scene(eye), frame.to_scene(target), {0.0, 1.0, 0.0}, fov, size);
 }
 
 double covered(const Image& image) {

@@ -8,33 +8,81 @@
 namespace alcove {
 namespace {
 
-TEST(Shading, IsTheFormulaOfItsSource) {
-    std::mt19937 random(3);
-    std::normal_distribution<double> coordinate;
-    std::uniform_real_distribution<double> share(0.0, 1.0);
-    const auto direction = [&] {
-        return glm::normalize(Vec3d(coordinate(random), coordinate(random), coordinate(random)));
-    };
-    for (int i = 0; i < 500; ++i) {
-        const Vec3d up = direction(), light = direction(), n = direction();
-        const double ao = share(random);
-        Lighting lighting;
-        lighting.up = Vec3(up);
-        lighting.toward_key = Vec3(light);
-        lighting.key = {1.0f, 0.5f, 0.25f};
-        lighting.sky = {0.2f, 0.3f, 0.5f};
-        lighting.ground = {0.1f, 0.4f, 0.3f};
-        const Vec3 color =
-            shade(lighting, {.color = Vec3(1.0f)}, {.normal = Vec3(n), .ao = static_cast<float>(ao)});
-        // direct + ambient·ao·(½ + ½ n_y) + bounce·clamp(−n_y)·ao
-        const double ny = n.x * up.x + n.y * up.y + n.z * up.z;
-        const double facing = std::fmax(0.0, n.x * light.x + n.y * light.y + n.z * light.z);
-        for (int c = 0; c < 3; ++c) {
-            const double ambient = double(lighting.sky[c]) * ao * (0.5 + 0.5 * ny);
-            const double bounce = double(lighting.ground[c]) * std::fmin(1.0, std::fmax(0.0, -ny)) * ao;
-            EXPECT_NEAR(color[c], double(lighting.key[c]) * facing + ambient + bounce, 1e-6);
-        }
+/// All that a colour depends on, at random.
+struct Case {
+    Lighting lighting;
+    Material material;
+    Place place;
+
+    explicit Case(std::mt19937& random) {
+        std::normal_distribution<float> normal;
+        std::uniform_real_distribution<float> share(0.0f, 1.0f);
+        const auto direction = [&] {
+            return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+        };
+        const auto color = [&] { return Vec3(share(random), share(random), share(random)); };
+        lighting = {direction(), direction(), color(), color(), color()};
+        material = {color(), color(), color(), share(random), share(random)};
+        place = {direction(), direction(), share(random), share(random), share(random)};
     }
+};
+
+/// The document's terms, written out once more, in double.
+double literally(const Case& c, int channel) {
+    const auto dot = [](const Vec3& a, const Vec3& b) {
+        return double(a.x) * double(b.x) + double(a.y) * double(b.y) + double(a.z) * double(b.z);
+    };
+    const double ny = dot(c.place.normal, c.lighting.up);
+    const double ao = double(c.place.ao) * double(c.material.occlusion);
+    const double diffuse =
+        std::fmax(0.0, dot(c.place.normal, c.lighting.toward_key)) * double(c.lighting.key[channel]);
+    const double shadow = double(c.place.shadow), ambient = double(c.lighting.sky[channel]);
+    double light = 0.0;
+    if (c.lighting.use == OcclusionUse::ambient)
+        light = diffuse * shadow + ambient * ao;
+    if (c.lighting.use == OcclusionUse::everything)
+        light = (diffuse * shadow + ambient) * ao;
+    if (c.lighting.use == OcclusionUse::sky)
+        light = diffuse * shadow + ambient * ao * (0.5 + 0.5 * ny);
+    light += std::fmin(1.0, std::fmax(0.0, -ny)) * ao * double(c.lighting.ground[channel]);
+    const double edge = std::fmin(1.0, std::fmax(0.0, (double(c.place.convexity) - 0.5) / 0.5));
+    double color = double(c.material.color[channel]);
+    if (c.material.edge_color)
+        color = color * (1.0 - edge) + double((*c.material.edge_color)[channel]) * edge;
+    const double mirrored = std::pow(1.0 - std::fmax(0.0, dot(c.place.to_eye, c.place.normal)), 5.0) * ao;
+    return color * light + double(c.material.subsurface[channel]) * (0.05 + 0.95 * ao) +
+           double(c.material.reflection) * mirrored * ambient;
+}
+
+TEST(Shading, IsTheFormulasOfItsSource) {
+    std::mt19937 random(3);
+    for (int i = 0; i < 600; ++i) {
+        Case c(random);
+        c.lighting.use = static_cast<OcclusionUse>(i % 3);
+        if (i % 2)
+            c.material.edge_color.reset();
+        const Vec3 color = shade(c.lighting, c.material, c.place);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(color[channel], literally(c, channel), 2e-6);
+    }
+}
+
+TEST(Shading, EdgesTakeTheirColourAboveFlatAlone) {
+    EXPECT_EQ(edge_share(0.0f), 0.0f);
+    EXPECT_EQ(edge_share(0.5f), 0.0f);
+    EXPECT_FLOAT_EQ(edge_share(0.75f), 0.5f);
+    EXPECT_EQ(edge_share(1.0f), 1.0f);
+}
+
+TEST(Shading, BuriedPlacesKeepATwentiethOfTheirSubsurfaceLight) {
+    EXPECT_FLOAT_EQ(subsurface(0.0f), 0.05f);
+    EXPECT_FLOAT_EQ(subsurface(1.0f), 1.0f);
+}
+
+TEST(Shading, TheEnvironmentIsMirroredAtGrazingAngles) {
+    const Vec3 up(0.0f, 1.0f, 0.0f);
+    EXPECT_EQ(fresnel(up, up, 1.0f), 0.0f);
+    EXPECT_EQ(fresnel(up, {1.0f, 0.0f, 0.0f}, 0.5f), 0.5f);
 }
 
 TEST(Shading, OcclusionLeavesTheKeyLightAlone) {

@@ -114,9 +114,13 @@ fov = 25
 method = "hemisphere"
 radius = "20%"
 samples = 16
+light = "everything"
+far_samples = 4
+far = 30
 [sun]
 direction = [0, 2, 0]
 color = [3, 2, 1]
+sharpness = 12
 [sky]
 color = 0.5
 bounce = [0, 0, 0.25]
@@ -141,6 +145,12 @@ occlusion = 0.75
     EXPECT_EQ(scene.occlusion.radius.value, 0.2);
     EXPECT_EQ(scene.occlusion.radius.unit, Length::Unit::diagonal);
     EXPECT_EQ(scene.occlusion.parameters, (std::vector<std::pair<std::string, double>>{{"samples", 16.0}}));
+    EXPECT_EQ(scene.occlusion.use, OcclusionUse::everything);
+    EXPECT_EQ(scene.occlusion.far_samples, 4);
+    EXPECT_EQ(scene.occlusion.far, 30.0);
+    ASSERT_TRUE(scene.light.shadow);
+    EXPECT_EQ(scene.light.shadow->sharpness, 12.0f);
+    EXPECT_FALSE(scene_from("[sun]\nshadow = false\nsharpness = 2\n").light.shadow);
     EXPECT_EQ(scene.light.toward_sun, Vec3d(0, 2, 0));
     EXPECT_EQ(scene.light.sun, Vec3(3, 2, 1));
     EXPECT_EQ(scene.light.sky, Vec3(0.5f));
@@ -188,6 +198,8 @@ TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
     expect_refusal("[occlusion]\nradius = 0\n", {":2:", "above 0"});
     expect_refusal("[occlusion]\nrays = 0.5\n", {":2:", "rays"});
     expect_refusal("[occlusion]\ncosine_weighted = 1\n", {":2:", "true or false"});
+    expect_refusal("[occlusion]\nfar = 3\n", {":2:", "far_samples"});
+    expect_refusal("[occlusion]\nlight = \"all\"\n", {":2:", "ambient", "all"});
     expect_refusal("[sky]\ncolor = [0, -1, 0]\n", {":2:", "below 0"});
     expect_refusal("[material.a]\nreflection = 2\n", {":2:", "from 0 to 1"});
     expect_refusal("material = [1]\n", {":1:", "table"});

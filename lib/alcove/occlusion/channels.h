@@ -1,6 +1,8 @@
 /// What a bake can give: its channels, and where an estimator writes them.
 #pragma once
 
+#include "alcove/enum_set.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,21 +50,7 @@ struct PerChannel {
 };
 
 /// The channels somebody asks for, or an estimator gives.
-class ChannelSet {
-  public:
-    constexpr ChannelSet() = default;
-    constexpr ChannelSet(Channel channel) : bits_(1u << static_cast<unsigned>(channel)) {}
-
-    constexpr bool has(Channel channel) const { return (bits_ & ChannelSet(channel).bits_) != 0; }
-    constexpr bool empty() const { return bits_ == 0; }
-    constexpr ChannelSet operator|(ChannelSet other) const { return ChannelSet(bits_ | other.bits_); }
-    constexpr ChannelSet operator&(ChannelSet other) const { return ChannelSet(bits_ & other.bits_); }
-    constexpr ChannelSet without(ChannelSet other) const { return ChannelSet(bits_ & ~other.bits_); }
-
-  private:
-    constexpr explicit ChannelSet(unsigned bits) : bits_(bits) {}
-    unsigned bits_ = 0;
-};
+using ChannelSet = EnumSet<Channel>;
 
 constexpr ChannelSet operator|(Channel a, Channel b) {
     return ChannelSet(a) | b;

@@ -144,6 +144,8 @@ void CameraRays::trace_tile(const PixelRegion& tile, const PixelRegion& region, 
             for (const Vec2& place : within_) {
                 hits.surfels[at] = {Vec3(0.0f), Vec3(0.0f)};
                 hits.objects[at] = no_object;
+                if (!hits.steps.empty())
+                    hits.steps[at] = 0.0f;
                 if (start < furthest_ || !subject_.grounds.empty()) {
                     const Vec3d ray = camera_.direction(x + double(place.x), y + double(place.y));
                     const GroundHit ground = meet_ground(ray);
@@ -202,7 +204,7 @@ void CameraRays::name_parts(std::span<const std::size_t> places_in_hits, Hits& h
 
 void CameraRays::meet(Batch& rays, Hits& hits) const {
     if (!two_sided_) {
-        const Batch met = traced(rays);
+        const Batch met = traced(rays, hits);
         const Gradients gradient = differences(places(met), precision_.difference);
         for (std::size_t i = 0; i < met.count; ++i)
             set(met, i, gradient[i], hits);
@@ -218,7 +220,7 @@ void CameraRays::meet(Batch& rays, Hits& hits) const {
 /// its face is reached. What is clearly a jump is passed; what may be one is kept unless the ray leaves a
 /// face right behind it.
 CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits) const {
-    const Batch met = traced(rays);
+    const Batch met = traced(rays, hits);
     const float voxel = precision_.voxel, near = nearness * voxel;
     const Values missing = distances(places(met));
     const Gradients slope = differences(places(met), near);
@@ -255,7 +257,7 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
 }
 
 /// Those of the rays that meet the surface, up to there.
-CameraRays::Batch CameraRays::traced(Batch& rays) const {
+CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
     const Values start = rays.travelled;
     alcove::trace(field_, rays,
                   {.far = far_,
@@ -263,6 +265,9 @@ CameraRays::Batch CameraRays::traced(Batch& rays) const {
                    .shortest_step = precision_.shortest_step,
                    .relaxation = relaxation,
                    .two_sided = two_sided_});
+    if (!hits.steps.empty())
+        for (std::size_t i = 0; i < rays.count; ++i)
+            hits.steps[rays.owner[i]] += static_cast<float>(rays.steps[i]);
     Batch met;
     Values earliest;
     for (std::size_t i = 0; i < rays.count; ++i)

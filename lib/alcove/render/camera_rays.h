@@ -30,11 +30,13 @@ struct Hits {
         surfels;               ///< unit space, normals toward the eye; without a normal where nothing was met
     std::vector<float> depths; ///< along the view axis, scene units
     std::vector<ObjectId> objects;
+    std::vector<float> steps; ///< map() calls on the way of each ray; empty where nobody asks
 
-    void resize(std::size_t samples) {
+    void resize(std::size_t samples, bool with_steps) {
         surfels.resize(samples);
         depths.resize(samples);
         objects.resize(samples);
+        steps.resize(with_steps ? samples : 0);
     }
 };
 
@@ -113,7 +115,7 @@ class CameraRays {
     GroundHit meet_ground(const Vec3d& ray) const;
     void set_ground(const Vec3d& ray, const GroundHit& ground, std::size_t at, Hits& hits) const;
     void name_parts(std::span<const std::size_t> places, Hits& hits) const;
-    Batch traced(Batch& rays) const;
+    Batch traced(Batch& rays, Hits& hits) const;
     void meet(Batch& rays, Hits& hits) const;
     Batch meet_two_sided(Batch& rays, bool last, Hits& hits) const;
     static Places places(const Batch& rays, float ahead = 0.0f);

@@ -1,6 +1,7 @@
 /// A rendered picture and its files: OpenEXR with every pass, PNG of one.
 #pragma once
 
+#include "alcove/render/passes.h"
 #include "alcove/types.h"
 
 #include <glm/mat4x4.hpp>
@@ -16,25 +17,27 @@ namespace alcove {
 /// Depth where nothing was hit.
 inline constexpr float far_depth = 1e10f;
 
-/// All passes of a picture, row after row from the top left; one value a pixel each.
+/// The passes of a picture, row after row from the top left; one value a pixel each. Those that it has not are empty.
 struct Image {
     int width = 0;
     int height = 0;
+    PassSet passes;
+    std::vector<float> alpha; ///< share of the pixel that the subject covers; there in any case
     std::vector<Vec3> color;  ///< linear light, multiplied by alpha
-    std::vector<float> alpha; ///< share of the pixel that the subject covers
-    std::vector<float> ao;    ///< visibility, multiplied by alpha
-    std::vector<float>
-        depth; ///< along the view axis, scene units, of the nearest sample; far_depth where none hit
-    std::vector<Vec3> normal; ///< scene directions, unit length, of the nearest sample; zero where none hit
+    std::vector<float> ao, convexity, shadow; ///< multiplied by alpha
+    std::vector<float> steps;                 ///< mean of the samples
+    // Of the nearest sample.
+    std::vector<float> depth;   ///< along the view axis, scene units; far_depth where nothing is
+    std::vector<Vec3> normal;   ///< scene directions, unit length; zero where nothing is
+    std::vector<Vec3> position; ///< scene units; zero where nothing is
+    std::vector<float> object;  ///< number of the object, counted from 1; 0 where nothing is
 
     Image() = default;
-    Image(int width, int height);
+    Image(int width, int height, PassSet passes = standard_passes);
 
     std::size_t pixels() const { return alpha.size(); }
-    static constexpr double bytes_per_pixel = 2 * sizeof(Vec3) + 3 * sizeof(float);
+    static double bytes_per_pixel(PassSet passes);
 };
-
-enum class Pass { beauty, ao, normal, depth };
 
 /// What an EXR header says beside the picture.
 struct ImageHeader {
@@ -45,13 +48,17 @@ struct ImageHeader {
     std::string comments;
 };
 
-/// Channels R G B A (half) Z (float), N.X N.Y N.Z (float), AO.R AO.G AO.B (half); ZIP compression. Written
-/// whole or not at all. \throw IoError if the file cannot be written.
-void write_exr(const Image& image, const std::filesystem::path& file, const ImageHeader& header);
+enum class Precision { half, single };
 
-/// The bytes of a PNG, eight bits a channel, no alpha. Beauty and ao: sRGB over a light backdrop. Normal: each
-/// component from [−1, 1] to [0, 1], over the backdrop. Depth: near is white, far dark grey, nothing black.
-/// \throw LimitError if the picture is too large for a PNG.
+/// Channels as passes.h names them, and A. Depth, normal, position, steps and object are single precision in any case;
+/// ZIP compression. Written whole or not at all. \throw IoError if the file cannot be written.
+void write_exr(const Image& image, const std::filesystem::path& file, const ImageHeader& header,
+               Precision precision = Precision::half);
+
+/// The bytes of a PNG of a pass that the image has, eight bits a channel, no alpha. Beauty, ao and shadow: sRGB over a
+/// light backdrop. Convexity as it is, normals from [−1, 1] to [0, 1], and objects in colours of their own, over the
+/// backdrop. Depth: near is white, far dark grey, nothing black. Steps: most are white. Positions: from the least to the
+/// largest of each coordinate. \throw LimitError if the picture is too large for a PNG.
 std::string encode_png(const Image& image, Pass pass);
 
 /// encode_png() to a file, written whole or not at all. \throw IoError if the file cannot be written.

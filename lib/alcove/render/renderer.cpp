@@ -1,7 +1,7 @@
 #include "alcove/render/renderer.h"
 
 #include "alcove/parallel.h"
-#include "alcove/render/camera_rays.h"
+#include "alcove/render/hit_values.h"
 
 #include <algorithm>
 
@@ -25,48 +25,83 @@ std::vector<PixelRegion> regions(ImageSize size, int samples) {
     return all;
 }
 
-/// Averages the samples of the pixels of a region. The eye is in unit space.
-void resolve(const Subject& subject, const Vec3d& eye, const Hits& hits, const std::vector<float>& ao,
-             const RenderOptions& options, const PixelRegion& region, Image& image) {
-    const auto samples = static_cast<std::size_t>(options.samples);
-    const auto resolve_pixel = [&](std::size_t pixel, std::size_t i) {
-        Vec3 color(0.0f), normal(0.0f);
-        float open = 0.0f, depth = far_depth, covered = 0.0f;
+/// Averages the samples of the pixels of a region.
+class Resolver {
+  public:
+    Resolver(const Subject& subject, const Vec3d& eye, const RenderOptions& options, Image& image)
+        : subject_(subject), eye_(eye), options_(options), image_(image) {}
+
+    void operator()(const PixelRegion& region, const Hits& hits, const HitValues& values) const {
+        parallel_for(static_cast<std::size_t>(region.height), 4, [&](std::size_t begin, std::size_t end) {
+            const auto width = static_cast<std::size_t>(region.width);
+            for (std::size_t row = begin; row < end; ++row) {
+                const std::size_t first =
+                    (static_cast<std::size_t>(region.y) + row) * static_cast<std::size_t>(image_.width) +
+                    static_cast<std::size_t>(region.x);
+                for (std::size_t x = 0; x < width; ++x)
+                    resolve(hits, values, row * width + x, first + x);
+            }
+        });
+    }
+
+  private:
+    void resolve(const Hits& hits, const HitValues& values, std::size_t pixel, std::size_t i) const {
+        const auto samples = static_cast<std::size_t>(options_.samples);
+        const auto value = [](const std::vector<float>& all, std::size_t s, float missing) {
+            return all.empty() ? missing : all[s];
+        };
+        Vec3 color(0.0f);
+        float alpha = 0.0f, ao = 0.0f, convexity = 0.0f, shadow = 0.0f, steps = 0.0f, depth = far_depth;
+        std::size_t nearest = 0;
         for (std::size_t s = pixel * samples; s < (pixel + 1) * samples; ++s) {
+            steps += value(hits.steps, s, 0.0f);
             const Surfel& surfel = hits.surfels[s];
             if (!surfel.has_normal())
                 continue;
             const ObjectId object = hits.objects[s];
-            const Ground* ground = ground_of(subject, object);
+            const Ground* ground = ground_of(subject_, object);
             const float coverage = ground ? ground->coverage(surfel.position) : 1.0f;
-            const Vec3 to_eye(glm::normalize(eye - Vec3d(surfel.position)));
-            covered += coverage;
-            color += coverage * shade(options.lighting, material_of(subject, object),
-                                      {.normal = surfel.normal, .to_eye = to_eye, .ao = ao[s]});
-            open += coverage * ao[s];
+            const Place place{.normal = surfel.normal,
+                              .to_eye = glm::normalize(Vec3(eye_ - Vec3d(surfel.position))),
+                              .ao = value(values.ao, s, 1.0f),
+                              .shadow = value(values.shadow, s, 1.0f),
+                              .convexity = value(values.convexity, s, 0.5f)};
+            alpha += coverage;
+            ao += coverage * place.ao;
+            convexity += coverage * place.convexity;
+            shadow += coverage * place.shadow;
+            if (image_.passes.has(Pass::beauty))
+                color += coverage * shade(options_.lighting, material_of(subject_, object), place);
             if (hits.depths[s] < depth) {
                 depth = hits.depths[s];
-                normal = surfel.normal;
+                nearest = s;
             }
         }
-        const float share = 1.0f / static_cast<float>(options.samples);
-        image.color[i] = share * color;
-        image.alpha[i] = share * covered;
-        image.ao[i] = share * open;
-        image.depth[i] = depth;
-        image.normal[i] = normal;
-    };
-    parallel_for(static_cast<std::size_t>(region.height), 4, [&](std::size_t begin, std::size_t end) {
-        const auto width = static_cast<std::size_t>(region.width);
-        for (std::size_t row = begin; row < end; ++row) {
-            const std::size_t first =
-                (static_cast<std::size_t>(region.y) + row) * static_cast<std::size_t>(image.width) +
-                static_cast<std::size_t>(region.x);
-            for (std::size_t x = 0; x < width; ++x)
-                resolve_pixel(row * width + x, first + x);
-        }
-    });
-}
+        const float share = 1.0f / static_cast<float>(options_.samples);
+        const auto set = [&](Pass pass, auto& place, const auto& mean) {
+            if (image_.passes.has(pass))
+                place[i] = mean;
+        };
+        image_.alpha[i] = share * alpha;
+        set(Pass::beauty, image_.color, share * color);
+        set(Pass::ao, image_.ao, share * ao);
+        set(Pass::convexity, image_.convexity, share * convexity);
+        set(Pass::shadow, image_.shadow, share * shadow);
+        set(Pass::steps, image_.steps, share * steps);
+        if (depth >= far_depth)
+            return;
+        const Surfel& surfel = hits.surfels[nearest];
+        set(Pass::depth, image_.depth, depth);
+        set(Pass::normal, image_.normal, surfel.normal);
+        set(Pass::position, image_.position, Vec3(subject_.frame.to_scene(surfel.position)));
+        set(Pass::object, image_.object, static_cast<float>(hits.objects[nearest]));
+    }
+
+    const Subject& subject_;
+    const Vec3d& eye_; // unit space
+    const RenderOptions& options_;
+    Image& image_;
+};
 
 }
 
@@ -80,14 +115,16 @@ Lighting studio_lighting(const Camera& camera, const Vec3d& up) {
 
 Image render(const Subject& subject, const Camera& camera, const RenderOptions& options,
              const Progress& progress) {
-    Image image(camera.size().width, camera.size().height);
+    Image image(camera.size().width, camera.size().height, options.passes);
     const CameraRays rays(subject, camera, options.samples);
     const AnyField surroundings = subject.surroundings();
     const Vec3d eye = (camera.eye() - subject.frame.center) / subject.frame.diagonal;
+    const Resolver resolve(subject, eye, options, image);
     std::size_t finished = 0;
     Hits hits;
     for (const PixelRegion& region : regions(camera.size(), options.samples)) {
-        hits.resize(region.pixels() * static_cast<std::size_t>(options.samples));
+        hits.resize(region.pixels() * static_cast<std::size_t>(options.samples),
+                    options.passes.has(Pass::steps));
         parallel_for(region.tiles(CameraRays::tile_side), 32,
                      [&](std::size_t begin, std::size_t end) { rays.trace(region, begin, end, hits); });
         const auto done = [&](double part) {
@@ -95,11 +132,7 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
                 progress((static_cast<double>(finished) + part * static_cast<double>(region.pixels())) /
                          static_cast<double>(image.pixels()));
         };
-        std::vector<float> ao(hits.surfels.size(), 1.0f);
-        if (options.method)
-            ao = std::move(bake_channels(hits.surfels, surroundings, *options.method, options.settings,
-                                         Channel::ao, done)[Channel::ao]);
-        resolve(subject, eye, hits, ao, options, region, image);
+        resolve(region, hits, values_of(hits, subject, surroundings, eye, options, done));
         done(1.0);
         finished += region.pixels();
     }

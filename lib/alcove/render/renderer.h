@@ -8,9 +8,16 @@
 #include "alcove/render/camera.h"
 #include "alcove/render/image.h"
 #include "alcove/render/shading.h"
+#include "alcove/render/soft_shadow.h"
 #include "alcove/render/subject.h"
 
 namespace alcove {
+
+/// Fewer probes for what is far away. Source: "SDF Ambient Occlusion — Detailed Reference" (2026), 5 to 2 over 50 units.
+struct FewerSamples {
+    int far_samples = 2;   ///< at `distance` and beyond, >= 1
+    float distance = 0.0f; ///< from the eye, unit space, > 0
+};
 
 struct RenderOptions {
     /// Rays a pixel, >= 1, averaged; the same places in every pixel.
@@ -18,11 +25,18 @@ struct RenderOptions {
     /// Estimator of occlusion; null: ao is 1 everywhere.
     const Method* method = nullptr;
     Settings settings{};
+    /// Of a method that has a parameter `samples`, which is that of the settings at the eye.
+    std::optional<FewerSamples> fewer{};
     Lighting lighting{};
+    std::optional<SoftShadow> shadow{}; ///< of the key light; none: it arrives everywhere
+    PassSet passes = standard_passes; ///< what the image is to have; what none of them needs is not computed
 };
 
 /// A key light from the upper left in front of whatever the camera looks at, under a sky in direction `up`.
 Lighting studio_lighting(const Camera& camera, const Vec3d& up);
+
+/// The probes of a surfel at a distance from the eye: from `near_samples` to those of `fewer`, evenly.
+int samples_at(float distance, int near_samples, const FewerSamples& fewer);
 
 /// Draws in regions of a million samples, so memory stays that of the image and about 100 MB. All values are
 /// finite. Cost: that of the rays (camera_rays.h), and the estimator's for each that meets the surface.

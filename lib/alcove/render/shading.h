@@ -25,8 +25,8 @@ enum class OcclusionUse {
 struct Lighting {
     Vec3 up{0.0f, 1.0f, 0.0f}; ///< where the sky is
     Vec3 toward_key{0.0f, 1.0f, 0.0f};
-    Vec3 key{0.25f, 0.23f, 0.20f};    ///< a surface that faces the key
-    Vec3 sky{0.72f, 0.74f, 0.77f};    ///< an open surface that faces up: the ambient light
+    Vec3 key{0.48f, 0.45f, 0.40f};    ///< a surface that faces the key
+    Vec3 sky{0.48f, 0.51f, 0.56f};    ///< an open surface that faces up: the ambient light
     Vec3 ground{0.20f, 0.18f, 0.16f}; ///< an open surface that faces down
     OcclusionUse use = OcclusionUse::sky;
 };

@@ -34,6 +34,12 @@ const Material& material_of(const Subject& subject, ObjectId object) {
     return subject.parts.empty() ? plain : subject.parts[object - 1u].material;
 }
 
+bool has_edge_colors(const Subject& subject) {
+    const auto has = [](const auto& object) { return object.material.edge_color.has_value(); };
+    return std::any_of(subject.parts.begin(), subject.parts.end(), has) ||
+           std::any_of(subject.grounds.begin(), subject.grounds.end(), has);
+}
+
 Outline outline(const AnyField& field, const Frame& frame) {
     constexpr int cells = 64;
     constexpr float cell = 1.0f / cells, half_diagonal = 0.8660254f * cell;

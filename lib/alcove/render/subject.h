@@ -45,6 +45,9 @@ inline constexpr ObjectId no_object = 0;
 /// The material of an object that is one.
 const Material& material_of(const Subject& subject, ObjectId object);
 
+/// Whether a material has a colour for convex edges.
+bool has_edge_colors(const Subject& subject);
+
 /// The ground that an object is, or null.
 const Ground* ground_of(const Subject& subject, ObjectId object);
 

@@ -6,6 +6,7 @@
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
 #include "alcove/render/shading.h"
+#include "alcove/render/soft_shadow.h"
 
 #include <filesystem>
 #include <optional>
@@ -80,14 +81,18 @@ struct SceneGround {
 
 /// What is not given is that of studio_lighting().
 struct SceneLight {
-    std::optional<Vec3d> toward_sun{};          ///< of any length but 0
-    std::optional<Vec3> sun{}, sky{}, bounce{}; ///< Lighting's key, sky and ground
+    std::optional<Vec3d> toward_sun{};               ///< of any length but 0
+    std::optional<Vec3> sun{}, sky{}, bounce{};      ///< Lighting's key, sky and ground
+    std::optional<SoftShadow> shadow = SoftShadow{}; ///< of the sun; none: it shines through
 };
 
 struct SceneOcclusion {
     const Method* method = &find_method("traced"); ///< null: none
     Length radius{0.1, Length::Unit::diagonal};    ///< of the box around all that is bounded
     std::vector<std::pair<std::string, double>> parameters{};
+    OcclusionUse use = OcclusionUse::sky;
+    std::optional<int> far_samples{}; ///< at the distance `far` from the eye and beyond; else as near it
+    double far = 0.0;                 ///< scene units, > 0 where there are far_samples
 };
 
 struct Scene {

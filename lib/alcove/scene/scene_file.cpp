@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace alcove {
@@ -185,6 +186,20 @@ void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
         }
     }
     take(occlusion.radius, length(table, "radius"));
+    constexpr OcclusionUse uses[] = {OcclusionUse::sky, OcclusionUse::ambient, OcclusionUse::everything};
+    if (const auto use = table.word("light", {"sky", "ambient", "everything"}))
+        occlusion.use = uses[*use];
+    occlusion.far_samples = table.count("far_samples", 1, 1 << 20);
+    take(occlusion.far, table.positive("far"));
+    if (occlusion.far_samples.has_value() != (occlusion.far > 0.0))
+        table.fail(occlusion.far_samples ? "far_samples" : "far",
+                   "needs its other half: write far_samples = 2 and far = 50, a distance from the camera");
+    const auto has_samples = [](const Method& method) {
+        const std::vector<ParameterInfo> all = method.parameters();
+        return std::any_of(all.begin(), all.end(), [](const auto& info) { return info.name == "samples"; });
+    };
+    if (occlusion.far_samples && !(occlusion.method && has_samples(*occlusion.method)))
+        table.fail("far_samples", "is for methods that take samples, such as classic");
     if (occlusion.method)
         for (const ParameterInfo& parameter : occlusion.method->parameters()) {
             const std::optional<double> value =
@@ -239,6 +254,11 @@ Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
     if (std::optional<TomlTable> sun = table.table("sun")) {
         take(scene.light.toward_sun, sun->direction("direction"));
         take(scene.light.sun, sun->color("color"));
+        if (sun->flag("shadow") == false)
+            scene.light.shadow.reset();
+        if (const std::optional<double> sharpness = sun->positive("sharpness");
+            sharpness && scene.light.shadow)
+            scene.light.shadow->sharpness = static_cast<float>(*sharpness);
         sun->check_all_read();
     }
     if (std::optional<TomlTable> sky = table.table("sky")) {

@@ -73,6 +73,12 @@ Vec3 steepest(const AnyField& field, const Vec3& p) {
     return length > 0.0f ? gradient / length : Vec3(0.0f);
 }
 
+bool has_edge_colors(const Scene& scene) {
+    return (scene.ground && scene.ground->material.edge_color) ||
+           std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const SceneObject& object) { return object.material.edge_color.has_value(); });
+}
+
 /// The height of the lowest point, scene units: of the vertices, or of points of the surface a 64th of the scene apart,
 /// which a round bottom is lower than by a thousandth.
 double lowest(const Prop& prop, const AnyField& field, const Frame& frame, const Vec3d& up) {
@@ -94,12 +100,14 @@ double lowest(const Prop& prop, const AnyField& field, const Frame& frame, const
 
 }
 
-Staged stage(const Scene& scene, const Progress& progress) {
+Staged stage(const Scene& scene, PassSet passes, const Progress& progress) {
     std::vector<Prop> props = fetch_props(scene);
     const Box box = box_around(props);
     const Frame frame = frame_of(box);
     const float radius = scene.occlusion.radius.to_unit(frame.diagonal, named_voxel(props, frame));
-    const Stage common{frame, radius, scene.occlusion.method != nullptr,
+    const bool convexity =
+        passes.has(Pass::convexity) || (passes.has(Pass::beauty) && has_edge_colors(scene));
+    const Stage common{frame, radius, scene.occlusion.method != nullptr || convexity,
                        memory_limit / std::max(1.0, static_cast<double>(count_grids(props))), progress};
 
     std::vector<Part> parts;
@@ -112,7 +120,7 @@ Staged stage(const Scene& scene, const Progress& progress) {
             grounds.push_back({.plane = plane_of(prop, frame), .material = material});
             continue;
         }
-        parts.push_back({field_of(prop, common), material});
+        parts.push_back({field_of(prop, common, convexity), material});
         if (scene.ground)
             floor = std::min(floor, lowest(prop, parts.back().field, frame, up));
     }
@@ -148,11 +156,21 @@ Staged stage(const Scene& scene, const Progress& progress) {
 /// Of an estimator that traces rays: with the samples of a pixel, what a vertex of a bake has.
 constexpr double rays_a_sample = 16.0;
 
-RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camera& camera) {
+RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camera& camera, PassSet passes) {
     RenderOptions options{.samples = scene.samples,
                           .method = scene.occlusion.method,
                           .settings = {staged.radius, scene.occlusion.parameters},
-                          .lighting = studio_lighting(camera, scene.camera.up)};
+                          .lighting = studio_lighting(camera, scene.camera.up),
+                          .shadow = scene.light.shadow,
+                          .passes = passes};
+    options.lighting.use = scene.occlusion.use;
+    const auto takes = [&](std::string_view name) {
+        const std::vector<ParameterInfo> all = options.method->parameters();
+        return std::any_of(all.begin(), all.end(), [&](const auto& info) { return info.name == name; });
+    };
+    if (scene.occlusion.far_samples && options.method && takes("samples"))
+        options.fewer = FewerSamples{*scene.occlusion.far_samples,
+                                     static_cast<float>(scene.occlusion.far / staged.subject.frame.diagonal)};
     if (options.method)
         for (const ParameterInfo& parameter : options.method->parameters())
             if (parameter.name == "rays" && parameter.standard > rays_a_sample)

@@ -21,9 +21,10 @@ struct Staged {
 ///
 /// \throw InputError naming the object and its file: what read_mesh(), read_grids() and voxelize() throw; a difference
 /// or blended union of what is no solid; a plane in a union or cut by others; nothing to see. LimitError as voxelize().
-Staged stage(const Scene& scene, const Progress& progress = {});
+Staged stage(const Scene& scene, PassSet passes = standard_passes, const Progress& progress = {});
 
 /// How a staged scene is drawn. Rays of occlusion are 16 a sample unless the scene says how many.
-RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camera& camera);
+RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camera& camera,
+                           PassSet passes = standard_passes);
 
 }
