@@ -89,6 +89,9 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
             }
             if (meets(i, d)) {
                 rays.hit[i] = true;
+                // Between a place in front of the surface and one behind it, as if the distance were linear.
+                if (!options.two_sided && d < 0.0f && previous[i] > 0.0f)
+                    rays.travelled[i] += stepped[i] * d / (previous[i] - d);
                 continue;
             }
             previous[i] = d;

@@ -47,9 +47,8 @@ template <class E>
 E with_settings(const Settings& settings) {
     E estimator;
     estimator.radius = settings.radius;
-    // A probe further from the mesh than its diagonal tells nothing of it.
     if constexpr (!traces_rays<E>())
-        estimator.radius = std::min(estimator.radius, 1.0f);
+        estimator.radius = std::min(estimator.radius, settings.furthest_probe);
     for (const auto& [name, value] : settings.parameters)
         for (const auto& p : E::parameters())
             if (p.name == name)
@@ -110,7 +109,7 @@ auto owner_of(std::string_view parameter, std::span<const Method* const> needed)
 
 /// Those that are the method's own among the needed.
 Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
-    Settings own{.radius = all.radius};
+    Settings own{.radius = all.radius, .furthest_probe = all.furthest_probe};
     for (const auto& setting : all.parameters)
         if (const auto owner = owner_of(setting.first, needed); owner != needed.end() && *owner == method)
             own.parameters.push_back(setting);

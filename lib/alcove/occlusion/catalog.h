@@ -26,6 +26,9 @@ struct ParameterInfo {
 struct Settings {
     float radius = 0.1f; ///< units of the field; may be infinite
     std::vector<std::pair<std::string, double>> parameters{};
+    /// The radius is cut to this where it is that of probes: one further from a mesh than its diagonal tells nothing of
+    /// it.
+    float furthest_probe = 1.0f;
 };
 
 /// An estimator behind function pointers, as its struct describes itself.

@@ -261,7 +261,7 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
     const Values start = rays.travelled;
     alcove::trace(field_, rays,
                   {.far = far_,
-                   .hit_distance = precision_.hit_distance,
+                   .hit_distance = two_sided_ ? precision_.hit_distance : 0.0f,
                    .shortest_step = precision_.shortest_step,
                    .relaxation = relaxation,
                    .two_sided = two_sided_});
@@ -285,7 +285,7 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
         for (std::size_t i = 0; i < met.count; ++i)
             sign[i] = after[i] > before[i] ? -1.0f : 1.0f;
     }
-    constexpr int refinements = 3;
+    const int refinements = two_sided_ ? 3 : 1;
     for (int round = 0; round < refinements; ++round) {
         const Values distance = distances(places(met));
         for (std::size_t i = 0; i < met.count; ++i)

@@ -43,7 +43,7 @@ struct Hits {
 /// Lengths in unit space that follow from the resolution of a field.
 struct RayPrecision {
     float voxel;         ///< 0 for exact fields
-    float hit_distance;  ///< from where on a hit is refined
+    float hit_distance;  ///< of a two-sided field; others are met where their sign changes
     float shortest_step; ///< of a ray
     float difference;    ///< between a point and each probe of its normal
     float slack;         ///< around the box: behind a sheet, distances jump up to two voxels off its faces

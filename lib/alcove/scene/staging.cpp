@@ -176,6 +176,9 @@ RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camer
             if (parameter.name == "rays" && parameter.standard > rays_a_sample)
                 options.settings.parameters.emplace(options.settings.parameters.begin(), "rays",
                                                     rays_a_sample);
+    // A plane without an end is near probes however far they are.
+    if (!staged.subject.grounds.empty())
+        options.settings.furthest_probe = 100.0f;
     const SceneLight& light = scene.light;
     options.lighting.toward_key =
         light.toward_sun ? Vec3(glm::normalize(*light.toward_sun)) : options.lighting.toward_key;

@@ -1,0 +1,130 @@
+/// Pictures of level sets beside those of the exact shapes they were made from.
+#include "alcove/field/level_stack.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/triangulate.h"
+#include "alcove/render/renderer.h"
+#include "mesh/solids.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+struct Shape {
+    std::string name;
+    Mesh mesh; ///< so fine that it is the shape to a hundredth of a voxel
+    std::function<double(const Vec3d&)> distance;
+};
+
+std::vector<Shape> shapes() {
+    return {{"sphere", test::sphere_mesh(8), [](const Vec3d& p) { return glm::length(p) - 1.0; }},
+            {"box", test::box_mesh({1.0, 0.6, 0.8}, 1),
+             [](const Vec3d& p) {
+                 const Vec3d q = glm::abs(p) - Vec3d(1.0, 0.6, 0.8);
+                 return glm::length(glm::max(q, Vec3d(0.0))) +
+                        std::fmin(std::fmax(q.x, std::fmax(q.y, q.z)), 0.0);
+             }},
+            {"torus", torus(1200, 400),
+             [](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - 3.0, p.z) - 1.0; }}};
+}
+
+/// Of a ray of unit direction; infinite where it misses.
+double exact_hit(const Shape& shape, const Vec3d& eye, const Vec3d& direction, double far) {
+    double t = 0.0;
+    for (int step = 0; step < 100000 && t < far; ++step) {
+        const double d = shape.distance(eye + t * direction);
+        if (d < 1e-9)
+            return t;
+        t += d;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+class LevelSetPicture : public testing::TestWithParam<Shape> {};
+
+/// What is seen of a shape, and how far off.
+struct Seen {
+    std::size_t hits = 0, silhouette = 0; ///< pixels; those that see another part of the shape, or none
+    double sum = 0.0;                     ///< of errors along the ray, voxels
+    double largest = 0.0;                 ///< of these, off edges and silhouettes
+    double furthest = 0.0;                ///< of all hits, from the shape, voxels
+};
+
+/// At an edge the gradients around a place differ.
+bool at_edge(const Shape& shape, const Vec3d& p, double voxel) {
+    const auto gradient = [&](const Vec3d& q) {
+        Vec3d g;
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3d h(0.0);
+            h[axis] = 1e-5;
+            g[axis] = shape.distance(q + h) - shape.distance(q - h);
+        }
+        return glm::normalize(g);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d h(0.0);
+        h[axis] = 1.5 * voxel;
+        if (glm::dot(gradient(p + h), gradient(p - h)) < 0.9)
+            return true;
+    }
+    return false;
+}
+
+TEST_P(LevelSetPicture, ShowsTheExactShapeToAFractionOfAVoxel) {
+    const Shape& shape = GetParam();
+    const std::vector<Triangle> triangles = triangulate(shape.mesh).triangles;
+    const GridStack stack = voxelize(shape.mesh, triangles, {.grid = {.voxel = 1.0f / 256.0f}});
+    const Frame frame = frame_of(shape.mesh.box());
+    const Subject subject{LevelStack(stack), frame, shape.mesh.box()};
+    const double voxel = frame.diagonal / 256.0;
+    const ImageSize size{480, 360};
+    Seen seen;
+    // From three quarters, each way up.
+    for (const Vec3d& up : {Vec3d(0, 1, 0), Vec3d(1, 0, 0), Vec3d(0, 0, 1)}) {
+        const Camera camera = make_camera({.up = up}, shape.mesh.positions, size);
+        const Image image = render(subject, camera, {.samples = 1, .passes = Pass::depth});
+        const auto direction = [&](std::size_t i) {
+            return camera.direction(static_cast<double>(i % 480) + 0.5, static_cast<double>(i / 480) + 0.5);
+        };
+        std::vector<double> exact(image.pixels());
+        for (std::size_t i = 0; i < image.pixels(); ++i)
+            exact[i] = exact_hit(shape, camera.eye(), direction(i), 10.0 * frame.diagonal);
+        for (std::size_t i = 480; i + 480 < image.pixels(); ++i) {
+            const bool hit = image.alpha[i] > 0.0f, exactly = std::isfinite(exact[i]);
+            const double t = double(image.depth[i]) / glm::dot(direction(i), camera.forward());
+            const double error = std::fabs(t - exact[i]) / voxel;
+            constexpr double another_part = 4.0;
+            seen.silhouette += hit != exactly || (hit && error > another_part);
+            if (!hit || !exactly)
+                continue;
+            ++seen.hits;
+            seen.sum += error;
+            seen.furthest =
+                std::fmax(seen.furthest, std::fabs(shape.distance(camera.eye() + t * direction(i))) / voxel);
+            bool beside = false;
+            for (const std::size_t k : {i - 1, i + 1, i - 480, i + 480})
+                beside = beside || !(std::fabs(exact[k] - exact[i]) < another_part * voxel);
+            if (!beside && !at_edge(shape, camera.eye() + exact[i] * direction(i), voxel))
+                seen.largest = std::fmax(seen.largest, error);
+        }
+    }
+    const double mean = seen.sum / static_cast<double>(seen.hits);
+    std::printf("%s, 256 voxels: %zu hits, along the ray %.4f voxel on the mean and %.2f at most, off the "
+                "shape %.2f at "
+                "most; %zu pixels of the silhouette differ\n",
+                shape.name.c_str(), seen.hits, mean, seen.largest, seen.furthest, seen.silhouette);
+    EXPECT_GT(seen.hits, 150000u);
+    EXPECT_LE(mean, 0.05);
+    EXPECT_LE(seen.largest, 1.0);
+    EXPECT_LE(seen.furthest, 0.5); // edges are rounded within a voxel
+    EXPECT_LE(static_cast<double>(seen.silhouette), 0.005 * static_cast<double>(seen.hits));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, LevelSetPicture, testing::ValuesIn(shapes()),
+                         [](const auto& shape) { return shape.param.name; });
+
+}
+}
