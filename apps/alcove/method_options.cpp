@@ -54,13 +54,16 @@ std::vector<const Method*> needed_methods(const Method& chosen, ChannelSet wante
     }
 }
 
-Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted) {
-    const std::vector<const Method*> methods = needed_methods(method, wanted);
+namespace {
+
+/// The parameters that were set, as `check(settings)` lets them pass.
+template <class Check>
+Settings parse_settings_with(const MethodRequest& request, const Check& check) {
     Settings settings;
     const auto set = [&](const std::string& option, std::string name, double value) {
         const Settings one{.parameters = {{std::move(name), value}}};
         try {
-            check_settings(methods, one);
+            check(one);
         } catch (const InputError& wrong) {
             throw UsageError(option + ": " + wrong.what());
         }
@@ -79,6 +82,17 @@ Settings parse_settings(const MethodRequest& request, const Method& method, Chan
         set("--set " + setting, setting.substr(0, equals), parse_value(setting, setting.substr(equals + 1)));
     }
     return settings;
+}
+
+}
+
+Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted) {
+    const std::vector<const Method*> methods = needed_methods(method, wanted);
+    return parse_settings_with(request, [&](const Settings& one) { check_settings(methods, one); });
+}
+
+Settings parse_settings(const MethodRequest& request, const MethodInfo& method) {
+    return parse_settings_with(request, [&](const Settings& one) { check_settings(method, one); });
 }
 
 Needs needs_of(const Method& method, ChannelSet wanted) {

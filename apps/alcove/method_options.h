@@ -30,6 +30,9 @@ std::vector<const Method*> needed_methods(const Method& chosen, ChannelSet wante
 /// for what the methods that give the wanted channels do not take.
 Settings parse_settings(const MethodRequest& request, const Method& method, ChannelSet wanted);
 
+/// The same of one method alone.
+Settings parse_settings(const MethodRequest& request, const MethodInfo& method);
+
 /// What the methods that give the wanted channels ask.
 struct Needs {
     bool field = false; ///< a grid

@@ -1,6 +1,7 @@
 #include "common.h"
 
 #include "alcove/occlusion/catalog.h"
+#include "alcove/render/image_method.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -39,21 +40,21 @@ std::vector<std::string_view> names_of(ChannelSet gives) {
     return names;
 }
 
-nlohmann::ordered_json json_of(const Method& method) {
+nlohmann::ordered_json json_of(const MethodInfo& method, ChannelSet gives) {
     nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
     for (const ParameterInfo& parameter : method.parameters())
         parameters.push_back(json_of(parameter));
-    return {{"name", method.name},       {"summary", method.summary}, {"gives", names_of(method.gives)},
+    return {{"name", method.name},       {"summary", method.summary}, {"gives", names_of(gives)},
             {"formula", method.formula}, {"source", method.source},   {"cost_in_map_calls", method.cost},
             {"good", method.good},       {"bad", method.bad},         {"parameters", parameters}};
 }
 
-void print(const Method& method) {
+void print(const MethodInfo& method, ChannelSet gives) {
     const auto line = [](std::string_view key, std::string_view text) {
         fmt::print("  {:<9}{}\n", key, text);
     };
     fmt::print("{}: {}\n", method.name, method.summary);
-    line("gives", fmt::format("{}", fmt::join(names_of(method.gives), ", ")));
+    line("gives", fmt::format("{}", fmt::join(names_of(gives), ", ")));
     line("formula", method.formula);
     line("source", method.source);
     line("cost", fmt::format("{} map() calls a point", method.cost));
@@ -72,12 +73,16 @@ void print(const Method& method) {
 
 void run(const CommonOptions& options) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    for (const Method& method : catalog()) {
+    const auto tell = [&](const MethodInfo& method, ChannelSet gives) {
         if (options.json)
-            all.push_back(json_of(method));
+            all.push_back(json_of(method, gives));
         else
-            print(method);
-    }
+            print(method, gives);
+    };
+    for (const Method& method : catalog())
+        tell(method, method.gives);
+    for (const ImageMethod& method : image_methods())
+        tell(method, Channel::ao);
     if (options.json)
         print_json({{"methods", all}});
 }

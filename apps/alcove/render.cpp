@@ -74,7 +74,7 @@ void run(const Options& options) {
         throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which holds all");
     const Precision precision = parse_precision(options.precision);
     const Scene scene = requested_scene(options.scene, wanted);
-    const std::string_view method = scene.occlusion.method ? scene.occlusion.method->name : "none";
+    const std::string_view method = scene.occlusion.info() ? scene.occlusion.info()->name : "none";
 
     const Staged staged = [&] {
         ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");

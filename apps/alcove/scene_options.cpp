@@ -3,6 +3,7 @@
 #include "length.h"
 #include "vector.h"
 
+#include "alcove/errors.h"
 #include "alcove/render/image.h"
 #include "alcove/scene/scene_file.h"
 
@@ -57,20 +58,19 @@ void aim(const SceneRequest& request, CameraOptions& camera) {
 void choose_occlusion(const SceneRequest& request, SceneOcclusion& occlusion) {
     if (request.radius_given)
         occlusion.radius = parse_length(request.grid.radius, "--radius");
-    if (request.method_given) {
-        const std::string& name = request.method.method;
-        const Method* method = name == "none" ? nullptr : &parse_method(name);
-        if (method != occlusion.method)
-            occlusion.parameters.clear();
-        occlusion.method = method;
-    }
-    if (!occlusion.method)
+    if (request.method_given)
+        try {
+            occlusion.choose(request.method.method);
+        } catch (const InputError& unknown) {
+            throw UsageError(unknown.what());
+        }
+    if (!occlusion.info())
         return;
-    if (occlusion.method->asks_rays)
+    if (occlusion.method && occlusion.method->asks_rays)
         throw UsageError(fmt::format("render draws a field: --method {} traces the mesh itself; use traced",
                                      occlusion.method->name));
     // Of two settings the later holds.
-    for (auto& setting : parse_settings(request.method, *occlusion.method, Channel::ao).parameters)
+    for (auto& setting : parse_settings(request.method, *occlusion.info()).parameters)
         occlusion.parameters.push_back(std::move(setting));
 }
 
@@ -87,7 +87,8 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         ->default_str("4");
     add_radius_option(verb, request.grid,
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
-    add_method_options(verb, request.method, "Estimator, or none: ");
+    add_method_options(verb, request.method,
+                       "Estimator, march_steps or screen_space of the picture itself, or none: ");
     verb.add_option("--eye", request.eye, "Where the camera is; default: where it sees all")
         ->type_name("X,Y,Z");
     verb.add_option("--look-at", request.look_at, "What it looks at; default: the middle")

@@ -27,15 +27,6 @@ namespace alcove {
 namespace {
 
 template <class E>
-std::vector<ParameterInfo> parameters_of() {
-    const E standard;
-    std::vector<ParameterInfo> infos;
-    for (const auto& p : E::parameters())
-        infos.push_back({p.name, p.get(standard), p.min, p.max, p.integer, p.flag, p.unit, p.summary});
-    return infos;
-}
-
-template <class E>
 constexpr bool traces_rays() {
     if constexpr (requires { E::traces_rays; })
         return E::traces_rays;
@@ -43,16 +34,12 @@ constexpr bool traces_rays() {
         return false;
 }
 
+/// Probes are cut to what they can tell.
 template <class E>
-E with_settings(const Settings& settings) {
-    E estimator;
-    estimator.radius = settings.radius;
+E estimator_of(const Settings& settings) {
+    E estimator = with_settings<E>(settings);
     if constexpr (!traces_rays<E>())
         estimator.radius = std::min(estimator.radius, settings.furthest_probe);
-    for (const auto& [name, value] : settings.parameters)
-        for (const auto& p : E::parameters())
-            if (p.name == name)
-                p.set(estimator, value);
     return estimator;
 }
 
@@ -67,34 +54,27 @@ constexpr float document_radius_of() {
 template <class E>
 constexpr Method method() {
     constexpr bool on_mesh = Estimator<E, RaySurface>, on_both = std::same_as<E, Guided>;
-    return {E::name,
-            E::summary,
-            E::formula,
-            E::source,
-            E::cost,
-            E::good,
-            E::bad,
+    return {info_of<E>(),
             channels_of<E>(),
             !on_mesh,
             on_mesh || on_both,
             document_radius_of<E>(),
-            parameters_of<E>,
             [](std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
                const Occluders& occluders, const Settings& settings, ChannelSet wanted,
                const Progress& progress) {
                 if constexpr (on_both)
                     return bake_channels(surfels, order, occluders.field(), occluders.rays(),
-                                         with_settings<E>(settings), wanted, progress);
+                                         estimator_of<E>(settings), wanted, progress);
                 else if constexpr (on_mesh)
-                    return bake_channels(surfels, order, occluders.rays(), with_settings<E>(settings), wanted,
+                    return bake_channels(surfels, order, occluders.rays(), estimator_of<E>(settings), wanted,
                                          progress);
                 else
-                    return bake_channels(surfels, order, occluders.field(), with_settings<E>(settings),
-                                         wanted, progress);
+                    return bake_channels(surfels, order, occluders.field(), estimator_of<E>(settings), wanted,
+                                         progress);
             }};
 }
 
-std::optional<ParameterInfo> find_parameter(const Method& method, std::string_view name) {
+std::optional<ParameterInfo> find_parameter(const MethodInfo& method, std::string_view name) {
     for (const ParameterInfo& parameter : method.parameters())
         if (parameter.name == name)
             return parameter;
@@ -102,9 +82,10 @@ std::optional<ParameterInfo> find_parameter(const Method& method, std::string_vi
 }
 
 /// The first of the methods that has the parameter.
-auto owner_of(std::string_view parameter, std::span<const Method* const> needed) {
+template <class M>
+auto owner_of(std::string_view parameter, std::span<const M* const> needed) {
     return std::find_if(needed.begin(), needed.end(),
-                        [&](const Method* method) { return find_parameter(*method, parameter).has_value(); });
+                        [&](const M* method) { return find_parameter(*method, parameter).has_value(); });
 }
 
 /// Those that are the method's own among the needed.
@@ -114,6 +95,29 @@ Settings settings_of(const Method* method, std::span<const Method* const> needed
         if (const auto owner = owner_of(setting.first, needed); owner != needed.end() && *owner == method)
             own.parameters.push_back(setting);
     return own;
+}
+
+template <class M>
+void check(std::span<const M* const> needed, const Settings& settings) {
+    for (const auto& [name, value] : settings.parameters) {
+        const auto owner = owner_of(name, needed);
+        if (owner == needed.end()) {
+            std::vector<std::string_view> methods, names;
+            for (const M* method : needed) {
+                methods.push_back(method->name);
+                for (const ParameterInfo& p : method->parameters())
+                    names.push_back(p.name);
+            }
+            throw InputError(fmt::format("{} has no parameter '{}'; there are: {}",
+                                         fmt::join(methods, " and "), name,
+                                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        }
+        const ParameterInfo p = *find_parameter(**owner, name);
+        if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
+            throw InputError(fmt::format("{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name,
+                                         (*owner)->name, p.integer ? "a whole number" : "a number", p.min,
+                                         p.max, value));
+    }
 }
 
 constexpr std::array methods{
@@ -158,25 +162,11 @@ std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted) 
 }
 
 void check_settings(std::span<const Method* const> needed, const Settings& settings) {
-    for (const auto& [name, value] : settings.parameters) {
-        const auto owner = owner_of(name, needed);
-        if (owner == needed.end()) {
-            std::vector<std::string_view> methods, names;
-            for (const Method* method : needed) {
-                methods.push_back(method->name);
-                for (const ParameterInfo& p : method->parameters())
-                    names.push_back(p.name);
-            }
-            throw InputError(fmt::format("{} has no parameter '{}'; there are: {}",
-                                         fmt::join(methods, " and "), name,
-                                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
-        }
-        const ParameterInfo p = *find_parameter(**owner, name);
-        if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
-            throw InputError(fmt::format("{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name,
-                                         (*owner)->name, p.integer ? "a whole number" : "a number", p.min,
-                                         p.max, value));
-    }
+    check(needed, settings);
+}
+
+void check_settings(const MethodInfo& method, const Settings& settings) {
+    check<MethodInfo>(std::array{&method}, settings);
 }
 
 ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,

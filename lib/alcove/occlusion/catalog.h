@@ -2,48 +2,20 @@
 #pragma once
 
 #include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/method_info.h"
 #include "alcove/occlusion/occluders.h"
 
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace alcove {
 
-/// A parameter of a method, as the Parameter of its estimator describes it.
-struct ParameterInfo {
-    std::string_view name;
-    double standard; ///< its default
-    double min, max; ///< inclusive
-    bool integer, flag;
-    std::string_view unit;
-    std::string_view summary;
-};
-
-/// What a user sets: the radius of every estimator, and parameters by their names. Where several methods bake, a
-/// parameter is that of the first which has it.
-struct Settings {
-    float radius = 0.1f; ///< units of the field; may be infinite
-    std::vector<std::pair<std::string, double>> parameters{};
-    /// The radius is cut to this where it is that of probes: one further from a mesh than its diagonal tells nothing of
-    /// it.
-    float furthest_probe = 1.0f;
-};
-
-/// An estimator behind function pointers, as its struct describes itself.
-struct Method {
-    std::string_view name;
-    std::string_view summary;
-    std::string_view formula;
-    std::string_view source;
-    std::string_view cost; ///< in map() calls a surfel
-    std::string_view good, bad;
+/// An estimator behind a function pointer, as its struct describes itself.
+struct Method : MethodInfo {
     ChannelSet gives;
     bool asks_field;       ///< whether it probes the field
     bool asks_rays;        ///< whether it traces the triangles
     float document_radius; ///< that the constants of the formula stand for; 0 where it has none
-    std::vector<ParameterInfo> (*parameters)();
     /// Along the spatial_order(), which methods of one bake share. Settings of parameters the method has not are
     /// passed over.
     ChannelValues (*bake)(std::span<const Surfel>, std::span<const std::uint32_t> order, const Occluders&,
@@ -64,6 +36,7 @@ std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
 /// \throw InputError if none of the methods has a parameter that is set, or its value is out of range, naming
 /// what there is.
 void check_settings(std::span<const Method* const> methods, const Settings& settings);
+void check_settings(const MethodInfo& method, const Settings& settings);
 
 /// All wanted channels. \throw what methods_for() and check_settings() throw, and InputError where there is
 /// neither field nor triangles of the kind that a method asks.

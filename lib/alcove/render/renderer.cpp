@@ -25,6 +25,19 @@ std::vector<PixelRegion> regions(ImageSize size, int samples) {
     return all;
 }
 
+/// The values of the pixels of a region, for each of their samples.
+std::vector<float> spread(const std::vector<float>& pixels, int width, const PixelRegion& region,
+                          int samples) {
+    std::vector<float> values;
+    values.reserve(region.pixels() * static_cast<std::size_t>(samples));
+    for (int y = region.y; y < region.y + region.height; ++y)
+        for (int x = region.x; x < region.x + region.width; ++x)
+            values.insert(values.end(), static_cast<std::size_t>(samples),
+                          pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x)]);
+    return values;
+}
+
 /// Averages the samples of the pixels of a region.
 class Resolver {
   public:
@@ -120,6 +133,10 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
     const AnyField surroundings = subject.surroundings();
     const Vec3d eye = (camera.eye() - subject.frame.center) / subject.frame.diagonal;
     const Resolver resolve(subject, eye, options, image);
+    const bool shows_ao = options.passes.has(Pass::ao) || options.passes.has(Pass::beauty);
+    std::vector<float> ao_of_pixels;
+    if (options.image_method && shows_ao)
+        ao_of_pixels = options.image_method->occlusion(subject, camera, options.settings);
     std::size_t finished = 0;
     Hits hits;
     for (const PixelRegion& region : regions(camera.size(), options.samples)) {
@@ -132,7 +149,10 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
                 progress((static_cast<double>(finished) + part * static_cast<double>(region.pixels())) /
                          static_cast<double>(image.pixels()));
         };
-        resolve(region, hits, values_of(hits, subject, surroundings, eye, options, done));
+        HitValues values = values_of(hits, subject, surroundings, eye, options, done);
+        if (!ao_of_pixels.empty())
+            values.ao = spread(ao_of_pixels, image.width, region, options.samples);
+        resolve(region, hits, values);
         done(1.0);
         finished += region.pixels();
     }

@@ -7,6 +7,7 @@
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
 #include "alcove/render/image.h"
+#include "alcove/render/image_method.h"
 #include "alcove/render/shading.h"
 #include "alcove/render/soft_shadow.h"
 #include "alcove/render/subject.h"
@@ -25,6 +26,8 @@ struct RenderOptions {
     /// Estimator of occlusion; null: ao is 1 everywhere.
     const Method* method = nullptr;
     Settings settings{};
+    /// Instead of the estimator, with the same settings.
+    const ImageMethod* image_method = nullptr;
     /// Of a method that has a parameter `samples`, which is that of the settings at the eye.
     std::optional<FewerSamples> fewer{};
     Lighting lighting{};

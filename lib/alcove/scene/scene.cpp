@@ -1,9 +1,26 @@
 #include "alcove/scene/scene.h"
 
+#include "alcove/errors.h"
+
 #include <algorithm>
 #include <cctype>
 
 namespace alcove {
+
+void SceneOcclusion::choose(std::string_view name) {
+    const MethodInfo* before = info();
+    image_method = find_image_method(name);
+    try {
+        method = image_method || name == "none" ? nullptr : &find_method(name);
+    } catch (const InputError& unknown) {
+        std::string all = unknown.what();
+        for (const ImageMethod& other : image_methods())
+            all += ", " + std::string(other.name);
+        throw InputError(all + ", none");
+    }
+    if (info() != before)
+        parameters.clear();
+}
 
 Scene scene_of(const std::filesystem::path& file) {
     std::string extension = file.extension().string();

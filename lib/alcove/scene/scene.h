@@ -5,6 +5,7 @@
 #include "alcove/length.h"
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
+#include "alcove/render/image_method.h"
 #include "alcove/render/shading.h"
 #include "alcove/render/soft_shadow.h"
 
@@ -87,12 +88,18 @@ struct SceneLight {
 };
 
 struct SceneOcclusion {
-    const Method* method = &find_method("traced"); ///< null: none
+    const Method* method = &find_method("traced"); ///< null: none, or that of images
+    const ImageMethod* image_method = nullptr;     ///< beside a method that is null
     Length radius{0.1, Length::Unit::diagonal};    ///< of the box around all that is bounded
     std::vector<std::pair<std::string, double>> parameters{};
     OcclusionUse use = OcclusionUse::sky;
     std::optional<int> far_samples{}; ///< at the distance `far` from the eye and beyond; else as near it
     double far = 0.0;                 ///< scene units, > 0 where there are far_samples
+
+    /// Of whichever it is; null for none.
+    const MethodInfo* info() const { return method ? static_cast<const MethodInfo*>(method) : image_method; }
+    /// Chooses by name, `none` included, and forgets the parameters of another. \throw InputError listing the names.
+    void choose(std::string_view name);
 };
 
 struct Scene {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 namespace alcove {
@@ -180,7 +179,7 @@ class ObjectReader {
 void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
     if (const std::optional<std::string> name = table.text("method")) {
         try {
-            occlusion.method = *name == "none" ? nullptr : &find_method(*name);
+            occlusion.choose(*name);
         } catch (const InputError& unknown) {
             table.fail("method", std::string(": ") + unknown.what());
         }
@@ -194,21 +193,17 @@ void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
     if (occlusion.far_samples.has_value() != (occlusion.far > 0.0))
         table.fail(occlusion.far_samples ? "far_samples" : "far",
                    "needs its other half: write far_samples = 2 and far = 50, a distance from the camera");
-    const auto has_samples = [](const Method& method) {
-        const std::vector<ParameterInfo> all = method.parameters();
-        return std::any_of(all.begin(), all.end(), [](const auto& info) { return info.name == "samples"; });
-    };
-    if (occlusion.far_samples && !(occlusion.method && has_samples(*occlusion.method)))
+    if (occlusion.far_samples && !(occlusion.method && occlusion.method->has_parameter("samples")))
         table.fail("far_samples", "is for methods that take samples, such as classic");
-    if (occlusion.method)
-        for (const ParameterInfo& parameter : occlusion.method->parameters()) {
+    if (const MethodInfo* method = occlusion.info())
+        for (const ParameterInfo& parameter : method->parameters()) {
             const std::optional<double> value =
                 parameter.flag ? table.flag(parameter.name) : table.number(parameter.name);
             if (!value)
                 continue;
             occlusion.parameters.emplace_back(parameter.name, *value);
             try {
-                check_settings(std::array{occlusion.method}, {.parameters = {occlusion.parameters.back()}});
+                check_settings(*method, {.parameters = {occlusion.parameters.back()}});
             } catch (const InputError& wrong) {
                 table.fail(parameter.name, std::string(": ") + wrong.what());
             }

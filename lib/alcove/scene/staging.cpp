@@ -160,15 +160,12 @@ RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camer
     RenderOptions options{.samples = scene.samples,
                           .method = scene.occlusion.method,
                           .settings = {staged.radius, scene.occlusion.parameters},
+                          .image_method = scene.occlusion.image_method,
                           .lighting = studio_lighting(camera, scene.camera.up),
                           .shadow = scene.light.shadow,
                           .passes = passes};
     options.lighting.use = scene.occlusion.use;
-    const auto takes = [&](std::string_view name) {
-        const std::vector<ParameterInfo> all = options.method->parameters();
-        return std::any_of(all.begin(), all.end(), [&](const auto& info) { return info.name == name; });
-    };
-    if (scene.occlusion.far_samples && options.method && takes("samples"))
+    if (scene.occlusion.far_samples && options.method && options.method->has_parameter("samples"))
         options.fewer = FewerSamples{*scene.occlusion.far_samples,
                                      static_cast<float>(scene.occlusion.far / staged.subject.frame.diagonal)};
     if (options.method)

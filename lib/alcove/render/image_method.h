@@ -1,0 +1,23 @@
+/// Methods of occlusion that make sense in pictures alone: a value a pixel, of the camera's own.
+#pragma once
+
+#include "alcove/occlusion/catalog.h"
+#include "alcove/render/camera.h"
+#include "alcove/render/subject.h"
+
+#include <span>
+
+namespace alcove {
+
+/// A method behind a function pointer, as its struct describes itself.
+struct ImageMethod : MethodInfo {
+    /// Visibility of every pixel, row after row from the top left, in [0, 1]; 1 where nothing is seen.
+    std::vector<float> (*occlusion)(const Subject& subject, const Camera& camera, const Settings& settings);
+};
+
+std::span<const ImageMethod> image_methods();
+
+/// The method of that name, or null.
+const ImageMethod* find_image_method(std::string_view name);
+
+}

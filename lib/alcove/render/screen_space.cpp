@@ -1,0 +1,137 @@
+#include "alcove/render/screen_space.h"
+
+#include "alcove/occlusion/directions.h"
+#include "alcove/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace alcove {
+namespace {
+
+/// The visibility of one pixel.
+class Kernel {
+  public:
+    Kernel(const ScreenSpace& method, const DepthBuffer& seen, double radius)
+        : seen_(seen), lattice_(method.samples), samples_(method.samples), radius_(radius),
+          least_cosine_(std::sin(method.bias * std::numbers::pi_v<float> / 180.0f)) {}
+
+    float operator()(std::size_t pixel) const {
+        const Vec3d p = seen_.from_eye(pixel);
+        const Basis basis(seen_.normal[pixel]);
+        const std::uint32_t random = hash(static_cast<std::uint32_t>(pixel));
+        const CosineLattice::Shift turn(random);
+        int open = 0, counted = 0;
+        for (int i = 0; i < samples_; ++i) {
+            const Vec3 direction = lattice_.direction(i, turn);
+            if (direction.z <= least_cosine_)
+                continue;
+            ++counted;
+            const float jitter = unit_interval(hash(random + static_cast<std::uint32_t>(i)));
+            const double way = radius_ * std::sqrt(1.0 - double(jitter));
+            open += !hidden(p + way * Vec3d(basis.to_world(direction)));
+        }
+        return counted > 0 ? static_cast<float>(open) / static_cast<float>(counted) : 1.0f;
+    }
+
+  private:
+    /// Whether something nearer to the eye, and near enough to it, is seen in its place.
+    bool hidden(const Vec3d& q) const {
+        const Vec3d place = seen_.camera.project(seen_.camera.eye() + q);
+        if (!(place.z > 0.0 && place.x >= 0.0 && place.y >= 0.0 &&
+              place.x < static_cast<double>(seen_.width()) && place.y < static_cast<double>(seen_.height())))
+            return false;
+        const auto pixel =
+            static_cast<std::size_t>(place.y) * seen_.width() + static_cast<std::size_t>(place.x);
+        if (!seen_.seen(pixel))
+            return false;
+        const double in_front = place.z - depth_at(pixel, q, place.z);
+        return in_front > 1e-4 * radius_ && in_front < radius_;
+    }
+
+    /// How far what the pixel shows is where the way to q passes through it: on the tangent plane of its centre, unless
+    /// that is seen edge-on.
+    double depth_at(std::size_t pixel, const Vec3d& q, double depth_of_q) const {
+        const Vec3d normal(seen_.normal[pixel]);
+        const double stored = double(seen_.depth[pixel]), facing = glm::dot(normal, q);
+        if (!(facing < -0.05 * glm::length(q)))
+            return stored;
+        return depth_of_q * glm::dot(normal, seen_.from_eye(pixel)) / facing;
+    }
+
+    const DepthBuffer& seen_;
+    CosineLattice lattice_;
+    int samples_;
+    double radius_;
+    float least_cosine_;
+};
+
+/// One of the two passes of a separable blur: along rows or along columns.
+std::vector<float> blurred(const std::vector<float>& ao, const DepthBuffer& seen,
+                           const std::vector<Vec3>& places, int reach, Blur blur, double radius,
+                           bool along_rows) {
+    std::vector<float> weights; // of the distance between pixels
+    const float sigma = 0.5f * static_cast<float>(reach);
+    for (int k = 0; k <= reach; ++k)
+        weights.push_back(std::exp(-0.5f * static_cast<float>(k * k) / (sigma * sigma)));
+    // Some tenths of the radius above or below the tangent plane is another surface.
+    const float height = 0.1f * static_cast<float>(radius);
+    const auto length = static_cast<int>(along_rows ? seen.width() : seen.height());
+    const std::size_t step = along_rows ? 1 : seen.width();
+    std::vector<float> result(ao.size(), 1.0f);
+    parallel_for(ao.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end; ++pixel) {
+            if (!seen.seen(pixel))
+                continue;
+            const auto at = static_cast<int>(along_rows ? pixel % seen.width() : pixel / seen.width());
+            float sum = 0.0f, total = 0.0f;
+            for (int k = std::max(-reach, -at); k <= std::min(reach, length - 1 - at); ++k) {
+                const std::size_t other =
+                    pixel + static_cast<std::size_t>(k) * step; // wraps to what is before
+                if (!seen.seen(other))
+                    continue;
+                float weight = weights[static_cast<std::size_t>(std::abs(k))];
+                if (blur == Blur::bilateral) {
+                    const Vec3& n = seen.normal[pixel];
+                    const float above = glm::dot(n, places[other] - places[pixel]) / height;
+                    const float alike = std::max(0.0f, glm::dot(n, seen.normal[other]));
+                    weight *= std::exp(-0.5f * above * above) * alike * alike * alike * alike;
+                }
+                sum += weight * ao[other];
+                total += weight;
+            }
+            result[pixel] = sum / total; // the pixel itself has a weight of 1
+        }
+    });
+    return result;
+}
+
+}
+
+std::vector<float> ScreenSpace::operator()(const DepthBuffer& seen, double scene_radius) const {
+    std::vector<float> ao(seen.depth.size(), 1.0f);
+    const Kernel kernel(*this, seen, scene_radius);
+    parallel_for(ao.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end; ++pixel)
+            if (seen.seen(pixel))
+                ao[pixel] = kernel(pixel);
+    });
+    const auto kind = static_cast<Blur>(blur);
+    if (kind == Blur::none)
+        return ao;
+    std::vector<Vec3> places(ao.size());
+    for (std::size_t pixel = 0; pixel < ao.size(); ++pixel)
+        if (seen.seen(pixel))
+            places[pixel] = Vec3(seen.from_eye(pixel));
+    for (const bool along_rows : {true, false})
+        ao = blurred(ao, seen, places, blur_pixels, kind, scene_radius, along_rows);
+    return ao;
+}
+
+std::vector<float> ScreenSpace::operator()(const Subject& subject, const Camera& camera) const {
+    // What the camera sees tells little of what is further than the scene is large.
+    return (*this)(look(subject, camera), std::min(double(radius), 1.0) * subject.frame.diagonal);
+}
+
+}
