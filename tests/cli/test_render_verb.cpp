@@ -99,6 +99,45 @@ TEST_F(RenderVerb, WritesThePassesThatAreAskedFor) {
     expect_refusal({"render", "cube.off", "-o", "d.exr", "--precision", "double"}, usage, {"half or float"});
 }
 
+TEST_F(RenderVerb, ATurntableGoesOnWhereItWasCutOff) {
+    write("cube.off", cube_off);
+    const std::vector<std::string> spin{"cube.off", "-o", "spin.png", "--frames", "4", "--no-ground"};
+    const Outcome first = draw(spin);
+    ASSERT_EQ(first.code, done) << first.err;
+    EXPECT_EQ(first.json()["skipped"], 0);
+    const std::vector<std::string> all{"cube.off", "spin_0001.png", "spin_0002.png", "spin_0003.png",
+                                       "spin_0004.png"};
+    EXPECT_EQ(files(), all);
+    EXPECT_NE(bytes_of("spin_0001.png"), bytes_of("spin_0002.png"));
+    const std::string second = bytes_of("spin_0002.png");
+    write("spin_0003.png", "kept");
+    std::filesystem::remove(folder_ / "work/spin_0002.png");
+    const Outcome again = draw(spin);
+    EXPECT_EQ(again.json()["skipped"], 3);
+    EXPECT_EQ(bytes_of("spin_0002.png"), second);
+    EXPECT_EQ(bytes_of("spin_0003.png"), "kept");
+    EXPECT_EQ(draw(spin).json()["skipped"], 4);
+    expect_refusal({"render", "cube.off", "-o", "spin.png", "--frames", "0"}, usage, {"--frames"});
+}
+
+TEST_F(RenderVerb, DrawsByTheMethodsOfPicturesToo) {
+    write("cube.off", cube_off);
+    for (const std::string method : {"screen_space", "march_steps"}) {
+        const Outcome drawn = draw({"cube.off", "-o", "a.png", "--method", method});
+        ASSERT_EQ(drawn.code, done) << drawn.err;
+        EXPECT_EQ(drawn.json()["method"], method);
+    }
+    EXPECT_EQ(
+        draw({"cube.off", "-o", "a.png", "--method", "screen_space", "--samples", "8", "--set", "blur=1"})
+            .code,
+        done);
+    expect_refusal({"render", "cube.off", "-o", "a.png", "--method", "screen_space", "--set", "blur=3"},
+                   usage, {"blur", "0 to 2"});
+    expect_refusal({"render", "cube.off", "-o", "a.png", "--method", "screenspace"}, usage,
+                   {"screenspace", "screen_space"});
+    expect_refusal({"bake", "cube.off", "-o", "a.ply", "--method", "screen_space"}, usage, {"screen_space"});
+}
+
 TEST_F(RenderVerb, FilesOfASceneAreFoundFromItsFolder) {
     std::filesystem::create_directory(folder_ / "work/sub");
     write("sub/cube.off", cube_off);

@@ -1,0 +1,98 @@
+#include "image_output.h"
+
+#include "common.h"
+
+#include "alcove/atomic_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace alcove::cli {
+namespace {
+
+/// Those that are named; none where no name is given. \throw UsageError for an unknown one.
+PassSet parse_passes(const std::vector<std::string>& names) {
+    PassSet wanted;
+    for (const std::string& name : names) {
+        bool known = false;
+        for (const PassInfo& info : all_passes)
+            if (name == info.name || name == "all") {
+                wanted = wanted | info.pass;
+                known = true;
+            }
+        if (!known) {
+            std::vector<std::string_view> all;
+            for (const PassInfo& info : all_passes)
+                all.push_back(info.name);
+            throw UsageError(
+                fmt::format("there is no pass '{}'; there are: {}, all", name, fmt::join(all, ", ")));
+        }
+    }
+    return wanted;
+}
+
+/// One of the passes.
+Pass first(PassSet wanted) {
+    return std::find_if(all_passes.begin(), all_passes.end(),
+                        [&](const PassInfo& info) { return wanted.has(info.pass); })
+        ->pass;
+}
+
+}
+
+void add_image_options(CLI::App& verb, ImageRequest& request) {
+    verb.add_option("-o,--output", request.file, "Image to write (exr, or png of one pass)")->required();
+    verb.add_option(
+            "--pass", request.passes,
+            "What the image shows: beauty, ao, depth, normal (of an exr, these four by default), position, "
+            "convexity, shadow, steps, object, or all; a png shows one. Give it again for more")
+        ->option_text("NAME");
+    verb.add_option("--precision", request.precision, "Of the colours of an exr: half or float")
+        ->type_name("NAME")
+        ->capture_default_str();
+}
+
+ImageOutput::ImageOutput(const ImageRequest& request) : file_(request.file) {
+    const std::string format = extension(file_);
+    if (format != ".exr" && format != ".png")
+        throw UsageError(fmt::format("{}: an image is written as .exr or .png; name the output so", file_));
+    png_ = format == ".png";
+    passes_ = parse_passes(request.passes);
+    if (passes_.empty())
+        passes_ = png_ ? PassSet(Pass::beauty) : standard_passes;
+    if (png_ && passes_ != first(passes_))
+        throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which holds all");
+    if (request.precision != "half" && request.precision != "float")
+        throw UsageError(fmt::format("--precision takes half or float, not '{}'", request.precision));
+    precision_ = request.precision == "half" ? Precision::half : Precision::single;
+    const AtomicFile probe(file_);
+}
+
+std::string ImageOutput::frame_file(int frame, int frames) const {
+    const std::filesystem::path path(file_);
+    const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames).size());
+    return (path.parent_path() /
+            fmt::format("{}_{:0{}}{}", path.stem().string(), frame, digits, path.extension().string()))
+        .string();
+}
+
+void ImageOutput::write(const Image& image, const std::string& file, const Camera& camera,
+                        const std::string& comments) const {
+    if (png_) {
+        write_png(image, file, first(passes_));
+        return;
+    }
+    ImageHeader header;
+    header.world_to_camera = camera.world_to_camera();
+    header.world_to_ndc = camera.world_to_ndc();
+    header.screen_window_width = camera.screen_window_width();
+    header.software = "alcove " ALCOVE_VERSION;
+    header.comments = comments;
+    write_exr(image, file, header, precision_);
+}
+
+}
