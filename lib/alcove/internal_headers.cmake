@@ -23,6 +23,7 @@ set(alcove_internal_headers
     grid/triangle_group.h
     grid/triangle_tree.h
     grid/vdb.h
+    grid/vdb_lengths.h
     grid/winding.h
     huge_pages.h
     mesh/byte_reader.h

@@ -116,6 +116,27 @@ TEST_F(GridFile, ALevelSetOfAnotherProgramIsAField) {
     }
 }
 
+TEST_F(GridFile, ABandSetVoxelByVoxelHasAnInside) {
+    // As a script would: nothing tells that what is deep within is not outside.
+    const auto band = openvdb::FloatGrid::create(0.15f);
+    band->setTransform(openvdb::math::Transform::createLinearTransform(0.05));
+    band->setGridClass(openvdb::GRID_LEVEL_SET);
+    auto writer = band->getAccessor();
+    for (int x = -30; x <= 30; ++x)
+        for (int y = -30; y <= 30; ++y)
+            for (int z = -30; z <= 30; ++z) {
+                const float d = 0.05f * std::sqrt(static_cast<float>(x * x + y * y + z * z)) - 1.0f;
+                if (std::fabs(d) < 0.15f)
+                    writer.setValue({x, y, z}, d);
+            }
+    write_foreign(band, "script.vdb", 0);
+    const GridStack stack = read_grids(path("script.vdb"));
+    const LevelStack field(stack);
+    for (const double x : {0.0, 0.3, 0.6, 0.8})
+        EXPECT_LT(field.map(stack.frame.to_unit({x, 0.0, 0.0})), 0.0f) << x;
+    EXPECT_GT(field.map(stack.frame.to_unit({1.3, 0.0, 0.0})), 0.0f);
+}
+
 TEST_F(GridFile, TruncationIsFoundWhateverTheCompression) {
     for (const std::uint32_t compression : {0u, 1u, 2u, 3u, 4u, 6u}) {
         write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),

@@ -3,12 +3,14 @@
 #include "alcove/atomic_file.h"
 #include "alcove/errors.h"
 #include "alcove/grid/vdb.h"
+#include "alcove/grid/vdb_lengths.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/parallel.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
+#include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
 #include <atomic>
@@ -36,13 +38,18 @@ std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file))
         refuse(file, "cannot be opened for reading: check the name");
+    check_vdb_lengths(file);
     std::vector<FloatGrid::Ptr> grids;
     try {
         openvdb::initialize();
+        // Else a count that is damaged is counted to the end.
+        stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
         io::Stream archive(stream, /*delayLoad=*/false);
         for (const openvdb::GridBase::Ptr& grid : *archive.getGrids())
             if (auto floats = openvdb::gridPtrCast<FloatGrid>(grid))
                 grids.push_back(std::move(floats));
+    } catch (const std::ios_base::failure&) {
+        refuse(file, "ends early: the file is truncated or damaged, write it again");
     } catch (const std::exception& error) {
         // What OpenVDB says may hold any bytes of the file: keep a readable start of it.
         std::string reason = error.what();
@@ -51,8 +58,6 @@ std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
             reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
         refuse(file, fmt::format("is no readable .vdb file ({}): write it again", reason));
     }
-    if (!stream)
-        refuse(file, "ends early: the file is truncated, write it again");
     return grids;
 }
 
@@ -168,6 +173,8 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
         refuse(file, fmt::format("grid '{}' holds no negative distance: alcove needs signed ones, negative "
                                  "inside, and finds the surface where they change sign",
                                  (*chosen)->getName()));
+    // Programs that set voxels one by one leave the inside beyond the band as it was: outside.
+    openvdb::tools::signedFloodFill((*chosen)->tree());
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
     const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
     Box box;
@@ -253,7 +260,11 @@ GridStack read_grids(const std::filesystem::path& file) {
     std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) {
         return number(*a, "alcove:voxel") < number(*b, "alcove:voxel");
     });
-    return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
+    try {
+        return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
+    } catch (const openvdb::Exception&) {
+        refuse(file, "holds a transform that makes nothing of its voxels: write it again");
+    }
 }
 
 }

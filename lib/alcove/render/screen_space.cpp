@@ -67,45 +67,64 @@ class Kernel {
     float least_cosine_;
 };
 
-/// One of the two passes of a separable blur: along rows or along columns.
-std::vector<float> blurred(const std::vector<float>& ao, const DepthBuffer& seen,
-                           const std::vector<Vec3>& places, int reach, Blur blur, double radius,
-                           bool along_rows) {
-    std::vector<float> weights; // of the distance between pixels
-    const float sigma = 0.5f * static_cast<float>(reach);
-    for (int k = 0; k <= reach; ++k)
-        weights.push_back(std::exp(-0.5f * static_cast<float>(k * k) / (sigma * sigma)));
-    // Some tenths of the radius above or below the tangent plane is another surface.
-    const float height = 0.1f * static_cast<float>(radius);
-    const auto length = static_cast<int>(along_rows ? seen.width() : seen.height());
-    const std::size_t step = along_rows ? 1 : seen.width();
-    std::vector<float> result(ao.size(), 1.0f);
-    parallel_for(ao.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t pixel = begin; pixel < end; ++pixel) {
-            if (!seen.seen(pixel))
-                continue;
-            const auto at = static_cast<int>(along_rows ? pixel % seen.width() : pixel / seen.width());
-            float sum = 0.0f, total = 0.0f;
-            for (int k = std::max(-reach, -at); k <= std::min(reach, length - 1 - at); ++k) {
-                const std::size_t other =
-                    pixel + static_cast<std::size_t>(k) * step; // wraps to what is before
-                if (!seen.seen(other))
+/// The two passes of a separable blur: along rows, along columns.
+class Smoother {
+  public:
+    Smoother(const ScreenSpace& method, const DepthBuffer& seen, double radius)
+        : seen_(seen), bilateral_(static_cast<Blur>(method.blur) == Blur::bilateral),
+          // A tenth of the radius above or below the tangent plane begins to be another surface.
+          height_(0.1f * static_cast<float>(radius)),
+          reach_(method.blur_reach * static_cast<float>(radius * static_cast<double>(seen.width()) /
+                                                        seen.camera.screen_window_width())),
+          places_(seen.depth.size()) {
+        for (std::size_t pixel = 0; pixel < places_.size(); ++pixel)
+            if (seen.seen(pixel))
+                places_[pixel] = Vec3(seen.from_eye(pixel));
+    }
+
+    std::vector<float> operator()(const std::vector<float>& ao, bool along_rows) const {
+        const auto length = static_cast<int>(along_rows ? seen_.width() : seen_.height());
+        const std::size_t step = along_rows ? 1 : seen_.width();
+        std::vector<float> result(ao.size(), 1.0f);
+        parallel_for(ao.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t pixel = begin; pixel < end; ++pixel) {
+                if (!seen_.seen(pixel))
                     continue;
-                float weight = weights[static_cast<std::size_t>(std::abs(k))];
-                if (blur == Blur::bilateral) {
-                    const Vec3& n = seen.normal[pixel];
-                    const float above = glm::dot(n, places[other] - places[pixel]) / height;
-                    const float alike = std::max(0.0f, glm::dot(n, seen.normal[other]));
-                    weight *= std::exp(-0.5f * above * above) * alike * alike * alike * alike;
+                const auto at = static_cast<int>(along_rows ? pixel % seen_.width() : pixel / seen_.width());
+                const float exact_reach = std::clamp(reach_ / seen_.depth[pixel], 1.0f, 64.0f);
+                const int reach = static_cast<int>(exact_reach);
+                float sum = 0.0f, total = 0.0f;
+                for (int k = std::max(-reach, -at); k <= std::min(reach, length - 1 - at); ++k) {
+                    const std::size_t other = pixel + static_cast<std::size_t>(k) * step; // wraps backward
+                    if (!seen_.seen(other))
+                        continue;
+                    const float weight = weight_of(2.0f * static_cast<float>(k) / exact_reach, pixel, other);
+                    sum += weight * ao[other];
+                    total += weight;
                 }
-                sum += weight * ao[other];
-                total += weight;
+                result[pixel] = sum / total; // the pixel itself has a weight of 1
             }
-            result[pixel] = sum / total; // the pixel itself has a weight of 1
-        }
-    });
-    return result;
-}
+        });
+        return result;
+    }
+
+  private:
+    /// `away` is the distance between the pixels in standard deviations, of which the reach is two.
+    float weight_of(float away, std::size_t pixel, std::size_t other) const {
+        if (!bilateral_)
+            return std::exp(-0.5f * away * away);
+        const Vec3& n = seen_.normal[pixel];
+        const float above = glm::dot(n, places_[other] - places_[pixel]) / height_;
+        const float alike = std::max(0.0f, glm::dot(n, seen_.normal[other]));
+        return std::exp(-0.5f * (away * away + above * above)) * alike * alike * alike * alike;
+    }
+
+    const DepthBuffer& seen_;
+    bool bilateral_;
+    float height_;             // τ, scene units
+    float reach_;              // pixels at depth 1
+    std::vector<Vec3> places_; // from the eye, scene units
+};
 
 }
 
@@ -117,15 +136,11 @@ std::vector<float> ScreenSpace::operator()(const DepthBuffer& seen, double scene
             if (seen.seen(pixel))
                 ao[pixel] = kernel(pixel);
     });
-    const auto kind = static_cast<Blur>(blur);
-    if (kind == Blur::none)
+    if (static_cast<Blur>(blur) == Blur::none)
         return ao;
-    std::vector<Vec3> places(ao.size());
-    for (std::size_t pixel = 0; pixel < ao.size(); ++pixel)
-        if (seen.seen(pixel))
-            places[pixel] = Vec3(seen.from_eye(pixel));
+    const Smoother smooth(*this, seen, scene_radius);
     for (const bool along_rows : {true, false})
-        ao = blurred(ao, seen, places, blur_pixels, kind, scene_radius, along_rows);
+        ao = smooth(ao, along_rows);
     return ao;
 }
 

@@ -27,13 +27,13 @@ enum class Blur {
 /// where a sample is behind what hides it. What is seen is taken for the tangent plane of its pixel, so that a plane does
 /// not hide itself. Source: "04 Ambient Occlusion", lecture notes: hemisphere kernel, range and angle checks, rotation,
 /// blur; bilateral weights: C. Tomasi and R. Manduchi, "Bilateral filtering for gray and color images" (1998), with τ a tenth
-/// of the radius. Thread-safe. Cost: N look-ups a pixel, and 4·blur_pixels + 2 for a blur.
+/// of the radius. Thread-safe. Cost: N look-ups a pixel, and four times the reach for a blur.
 struct ScreenSpace {
-    float radius = 0.1f; ///< unit space, > 0
-    int samples = 16;    ///< N
-    float bias = 5.0f;   ///< degrees above the tangent plane
-    int blur = 2;        ///< a Blur
-    int blur_pixels = 5; ///< the blur reaches so far
+    float radius = 0.1f;       ///< unit space, > 0
+    int samples = 16;          ///< N
+    float bias = 5.0f;         ///< degrees above the tangent plane
+    int blur = 2;              ///< a Blur
+    float blur_reach = 0.125f; ///< of the radius as it is seen, from 1 to 64 pixels
 
     static constexpr std::string_view name = "screen_space";
     static constexpr std::string_view summary =
@@ -51,7 +51,7 @@ struct ScreenSpace {
             parameter<&ScreenSpace::samples>("samples", 1, 4096, "samples", "of the hemisphere"),
             parameter<&ScreenSpace::bias>("bias", 0.0, 60.0, "degrees", "above the tangent plane, left out"),
             parameter<&ScreenSpace::blur>("blur", 0, 2, "", "0 none, 1 Gaussian, 2 bilateral"),
-            parameter<&ScreenSpace::blur_pixels>("blur_pixels", 1, 64, "pixels", "to either side"),
+            parameter<&ScreenSpace::blur_reach>("blur_reach", 0.0, 1.0, "radii", "that the blur reaches"),
         };
     }
 
