@@ -66,9 +66,6 @@ void choose_occlusion(const SceneRequest& request, SceneOcclusion& occlusion) {
         }
     if (!occlusion.info())
         return;
-    if (occlusion.method && occlusion.method->asks_rays)
-        throw UsageError(fmt::format("render draws a field: --method {} traces the mesh itself; use traced",
-                                     occlusion.method->name));
     // Of two settings the later holds.
     for (auto& setting : parse_settings(request.method, *occlusion.info()).parameters)
         occlusion.parameters.push_back(std::move(setting));
@@ -98,6 +95,16 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     verb.add_flag("--no-ground", request.no_ground, "Without the plane below the lowest point");
     verb.add_flag("--no-shadow", request.no_shadow, "The sun shines through everything");
     add_grid_options(verb, request.grid);
+    verb.add_option_function<std::string>(
+            "--normals",
+            [&request](const std::string& source) {
+                if (source != "field" && source != "mesh")
+                    throw UsageError(fmt::format("--normals takes field or mesh, not '{}'", source));
+                request.own_normals = source == "mesh";
+            },
+            "field: as the level set is; mesh: smooth, the file's own or area-weighted ones")
+        ->type_name("NAME")
+        ->default_str("field");
     verb.parse_complete_callback([&verb, &request] {
         request.radius_given = verb.count("--radius") > 0;
         request.method_given = verb.count("--method") > 0;
@@ -111,8 +118,10 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
     if (mesh) {
         mesh->voxel = parse_voxel(request.grid.voxel);
         mesh->sign = parse_sign(request.grid.sign);
-    } else if (request.grid.voxel != "auto" || request.grid.sign != "auto") {
-        throw UsageError(fmt::format("--voxel and --sign are for meshes: {} is a {}", request.input,
+        mesh->own_normals = request.own_normals;
+    } else if (request.grid.voxel != "auto" || request.grid.sign != "auto" || request.own_normals) {
+        throw UsageError(fmt::format("--voxel, --sign and --normals are for meshes: {} is a {}",
+                                     request.input,
                                      described ? "scene, which has them in its objects" : "grid already"));
     }
     if (request.no_ground)

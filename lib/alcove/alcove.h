@@ -86,6 +86,7 @@
 #include "alcove/render/shading.h"
 #include "alcove/render/soft_shadow.h"
 #include "alcove/render/subject.h"
+#include "alcove/render/subject_mesh.h"
 #include "alcove/render/turntable.h"
 
 #include "alcove/scene/scene.h"

@@ -44,8 +44,10 @@ set(alcove_internal_headers
     render/camera_rays.h
     render/cones.h
     render/hit_values.h
+    render/snap.h
     resident_memory.h
     scene/pose.h
     scene/prop_fields.h
     scene/props.h
-    scene/toml_table.h)
+    scene/toml_table.h
+    scene/triangles.h)

@@ -138,6 +138,17 @@ TEST_F(RenderVerb, DrawsByTheMethodsOfPicturesToo) {
     expect_refusal({"bake", "cube.off", "-o", "a.ply", "--method", "screen_space"}, usage, {"screen_space"});
 }
 
+TEST_F(RenderVerb, DrawsByRaysOnTheTriangles) {
+    write("cube.off", cube_off);
+    for (const std::string method : {"exact", "guided"})
+        EXPECT_EQ(draw({"cube.off", "-o", "a.png", "--method", method, "--rays", "2"}).code, done) << method;
+    EXPECT_EQ(draw({"cube.off", "-o", "b.png", "--normals", "mesh"}).code, done);
+    expect_refusal({"render", "cube.off", "-o", "b.png", "--normals", "smooth"}, usage,
+                   {"--normals", "smooth"});
+    write("painted.toml", "[[object]]\nshape = \"mesh\"\nfile = \"cube.off\"\npainted = true\n");
+    expect_refusal({"render", "painted.toml", "-o", "b.png"}, bad_input, {"painted", "no vertex colours"});
+}
+
 TEST_F(RenderVerb, FilesOfASceneAreFoundFromItsFolder) {
     std::filesystem::create_directory(folder_ / "work/sub");
     write("sub/cube.off", cube_off);

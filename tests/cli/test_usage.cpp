@@ -20,7 +20,7 @@ const std::vector<Verb> verbs{
     {"voxelize", {"--voxel", "--band", "--radius"}},
     {"render",
      {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov", "--pixel-samples",
-      "--no-ground", "--no-shadow", "--precision", "--frames"}},
+      "--no-ground", "--no-shadow", "--precision", "--frames", "--normals"}},
     {"measure", {"--radius", "--voxel", "--methods", "--report"}},
     {"info", {}},
 };

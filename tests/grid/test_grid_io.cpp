@@ -1,4 +1,5 @@
 #include "alcove/grid/grid_io.h"
+#include "alcove/grid/mesh_grid.h"
 
 #include "alcove/errors.h"
 #include "alcove/field/level_stack.h"
@@ -120,7 +121,6 @@ TEST_F(GridFile, ABandSetVoxelByVoxelHasAnInside) {
     // As a script would: nothing tells that what is deep within is not outside.
     const auto band = openvdb::FloatGrid::create(0.15f);
     band->setTransform(openvdb::math::Transform::createLinearTransform(0.05));
-    band->setGridClass(openvdb::GRID_LEVEL_SET);
     auto writer = band->getAccessor();
     for (int x = -30; x <= 30; ++x)
         for (int y = -30; y <= 30; ++y)
@@ -135,6 +135,12 @@ TEST_F(GridFile, ABandSetVoxelByVoxelHasAnInside) {
     for (const double x : {0.0, 0.3, 0.6, 0.8})
         EXPECT_LT(field.map(stack.frame.to_unit({x, 0.0, 0.0})), 0.0f) << x;
     EXPECT_GT(field.map(stack.frame.to_unit({1.3, 0.0, 0.0})), 0.0f);
+    // Its faces turn outward though nothing says that it is a level set.
+    const Mesh mesh = mesh_zero_surface(stack);
+    const auto corners = mesh.face(0);
+    const Vec3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
+                &c = mesh.positions[corners[2]];
+    EXPECT_GT(glm::dot(glm::cross(b - a, c - a), a), 0.0);
 }
 
 TEST_F(GridFile, TruncationIsFoundWhateverTheCompression) {

@@ -165,5 +165,33 @@ TEST(MeshGrid, AStackInAnotherFrameIsTheSameSurface) {
                     a.map(stack.frame.to_unit(p)) * stack.frame.diagonal, 1e-4);
 }
 
+TEST(MeshOfASampler, LiesOnTheSurfaceAndTurnsOutward) {
+    const Vec3 center(0.05f, -0.1f, 0.02f);
+    const float radius = 0.3f;
+    const Mesh mesh = mesh_zero_surface(
+        [&](std::span<const Vec3> points, float* distances) {
+            for (const Vec3& p : points)
+                *distances++ = glm::length(p - center) - radius;
+        },
+        1.0f / 128.0f);
+    EXPECT_GT(mesh.face_count(), 5000u);
+    for (const Vec3d& p : mesh.positions)
+        EXPECT_NEAR(glm::length(p - Vec3d(center)), double(radius), 0.2 / 128.0);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const auto corners = mesh.face(f);
+        const Vec3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
+                    &c = mesh.positions[corners[2]];
+        EXPECT_GT(glm::dot(glm::cross(b - a, c - a), a - Vec3d(center)), 0.0);
+    }
+    EXPECT_TRUE(closedness(mesh).closed());
+}
+
+TEST(MeshOfASampler, IsRefusedWhereThereIsNoSurface) {
+    const Sampler far = [](std::span<const Vec3> points, float* distances) {
+        std::fill_n(distances, points.size(), 5.0f);
+    };
+    EXPECT_THROW(mesh_zero_surface(far, 1.0f / 64.0f), InputError);
+}
+
 }
 }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 namespace alcove {
 namespace {
@@ -272,6 +273,49 @@ TEST(RaySurface, RefusesACornerThatNamesNoPosition) {
     const std::vector<Vec3> positions(3);
     const std::vector<Triangle> triangles{{0, 1, 3}};
     EXPECT_THROW(RaySurface(positions, triangles), InputError);
+}
+
+TEST(NearestHits, AreThePlacesThatTheirWeightsName) {
+    const Mesh mesh = test::sphere_mesh(3);
+    const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    std::vector<Vec3> positions(mesh.positions.begin(), mesh.positions.end());
+    const RaySurface surface(positions, triangles);
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    RayBatch rays;
+    while (rays.count < RayBatch::capacity) {
+        const Vec3 from = 2.0f * glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+        const Vec3 to = 0.6f * Vec3(normal(random), normal(random), normal(random));
+        rays.push_back({from, glm::normalize(to - from)}, 0.0f);
+    }
+    std::array<SurfaceHit, RayBatch::capacity> hits;
+    surface.find_nearest(rays, 10.0f, hits);
+    RayBatch again = rays;
+    again.travelled.fill(0.0f);
+    surface.find_occluded(again, 10.0f);
+    int met = 0;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        EXPECT_EQ(rays.hit[i], again.hit[i]);
+        if (!rays.hit[i])
+            continue;
+        ++met;
+        const Vec3 place = Vec3(rays.x[i], rays.y[i], rays.z[i]) +
+                           rays.travelled[i] * Vec3(rays.dx[i], rays.dy[i], rays.dz[i]);
+        Vec3 weighted(0.0f);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_GE(hits[i].weights[k], -1e-5f);
+            weighted += hits[i].weights[k] * positions[hits[i].vertices[static_cast<std::size_t>(k)]];
+        }
+        EXPECT_NEAR(glm::length(weighted - place), 0.0f, 2e-5f);
+        EXPECT_NEAR(hits[i].weights.x + hits[i].weights.y + hits[i].weights.z, 1.0f, 1e-5f);
+        EXPECT_LT(glm::length(place), 1.0f); // the near side: toward the start
+        EXPECT_LT(rays.travelled[i], 2.0f);
+        EXPECT_NE(
+            std::find_if(triangles.begin(), triangles.end(),
+                         [&](const Triangle& t) { return std::ranges::is_permutation(t, hits[i].vertices); }),
+            triangles.end());
+    }
+    EXPECT_GT(met, 100);
 }
 
 }

@@ -61,6 +61,8 @@ shape = "mesh"
 file = "a/scan.ply"
 voxel = "0.5%"
 sign = "unsigned"
+normals = "mesh"
+painted = true
 
 [[object]]
 shape = "vdb"
@@ -90,6 +92,7 @@ part = [{ shape = "sphere" }, { shape = "union", part = [{ shape = "plane" }] }]
     ASSERT_TRUE(mesh.voxel);
     EXPECT_EQ(mesh.voxel->value, 0.005);
     EXPECT_EQ(mesh.sign, SignChoice::sheet);
+    EXPECT_TRUE(mesh.own_normals && mesh.painted);
     EXPECT_EQ(std::get<GridShape>(scene.objects[6].shape).file, "/b/grid.vdb");
     const auto& cut = std::get<CompositeShape>(scene.objects[7].shape);
     EXPECT_EQ(cut.operation, CompositeShape::Operation::subtract);
@@ -211,6 +214,8 @@ TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
     expect_refusal("[[object]]\nshape = \"cube\"\n", {":2:", "box", "cube"});
     expect_refusal("[[object]]\nshape = \"mesh\"\n", {"needs a file"});
     expect_refusal("[[object]]\nshape = \"mesh\"\nfile = \"a.ply\"\nvoxel = \"3vx\"\n", {":4:", "vx"});
+    expect_refusal("[[object]]\nshape = \"mesh\"\nfile = \"a.ply\"\nnormals = \"smooth\"\n",
+                   {":4:", "field, mesh"});
     expect_refusal("[[object]]\nshape = \"box\"\nsize = [1, 0, 1]\n", {":3:", "above 0"});
     expect_refusal("[[object]]\nshape = \"union\"\n", {"needs parts"});
     expect_refusal("[[object]]\nshape = \"union\"\nblend = -1\npart = [{ shape = \"box\" }]\n",

@@ -175,6 +175,7 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
                                  (*chosen)->getName()));
     // Programs that set voxels one by one leave the inside beyond the band as it was: outside.
     openvdb::tools::signedFloodFill((*chosen)->tree());
+    (*chosen)->setGridClass(openvdb::GRID_LEVEL_SET);
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
     const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
     Box box;

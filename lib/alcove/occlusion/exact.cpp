@@ -13,6 +13,7 @@ namespace alcove {
 struct RaySurface::Scene {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
+    std::vector<TrianglePair> pairs; // its quadrilaterals
 
     Scene() = default;
     Scene(const Scene&) = delete;
@@ -46,7 +47,8 @@ RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle
     constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
     rtcSetSceneBuildQuality(scene->scene, quality);
     // Embree splits its quadrilaterals as pairs are: the same triangles, in half as many primitives to sort.
-    const std::vector<TrianglePair> pairs = pair_triangles(positions, triangles);
+    scene->pairs = pair_triangles(positions, triangles);
+    const std::vector<TrianglePair>& pairs = scene->pairs;
     if (!pairs.empty()) {
         RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_QUAD);
         rtcSetGeometryBuildQuality(geometry, quality);
@@ -61,19 +63,35 @@ RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle
     scene_ = scene;
 }
 
+namespace {
+
+RTCRay embree_ray(const RayBatch& rays, std::size_t i, float far) {
+    RTCRay ray;
+    ray.org_x = rays.x[i], ray.org_y = rays.y[i], ray.org_z = rays.z[i];
+    ray.dir_x = rays.dx[i], ray.dir_y = rays.dy[i], ray.dir_z = rays.dz[i];
+    ray.tnear = rays.travelled[i];
+    ray.tfar = far;
+    ray.time = 0.0f;
+    ray.mask = ~0u;
+    ray.id = static_cast<unsigned>(i);
+    ray.flags = 0;
+    return ray;
+}
+
+/// Of the pair's first triangle (0, 1, 3) below the diagonal, else of its second (2, 3, 1).
+SurfaceHit hit_of(const RTCHit& hit, const TrianglePair& pair) {
+    const Vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    if (hit.u + hit.v <= 1.0f)
+        return {{pair[0], pair[1], pair[3]}, {1.0f - hit.u - hit.v, hit.u, hit.v}, normal};
+    return {{pair[2], pair[3], pair[1]}, {hit.u + hit.v - 1.0f, 1.0f - hit.u, 1.0f - hit.v}, normal};
+}
+
+}
+
 void RaySurface::find_occluded(RayBatch& rays, float far) const {
     std::array<RTCRay, RayBatch::capacity> stream;
-    for (std::size_t i = 0; i < rays.count; ++i) {
-        RTCRay& ray = stream[i];
-        ray.org_x = rays.x[i], ray.org_y = rays.y[i], ray.org_z = rays.z[i];
-        ray.dir_x = rays.dx[i], ray.dir_y = rays.dy[i], ray.dir_z = rays.dz[i];
-        ray.tnear = rays.travelled[i];
-        ray.tfar = far;
-        ray.time = 0.0f;
-        ray.mask = ~0u;
-        ray.id = static_cast<unsigned>(i);
-        ray.flags = 0;
-    }
+    for (std::size_t i = 0; i < rays.count; ++i)
+        stream[i] = embree_ray(rays, i, far);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     // Measured: a stream of rays that start together is a fifth faster than packets of 16 filled here, sorted
@@ -81,6 +99,25 @@ void RaySurface::find_occluded(RayBatch& rays, float far) const {
     rtcOccluded1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.count; ++i)
         rays.hit[i] = stream[i].tfar < 0.0f;
+}
+
+void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const {
+    std::array<RTCRayHit, RayBatch::capacity> stream;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        stream[i].ray = embree_ray(rays, i, far);
+        stream[i].hit.geomID = stream[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count),
+                   sizeof(RTCRayHit));
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        rays.hit[i] = stream[i].hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        if (!rays.hit[i])
+            continue;
+        rays.travelled[i] = stream[i].ray.tfar;
+        hits[i] = hit_of(stream[i].hit, scene_->pairs[stream[i].hit.primID]);
+    }
 }
 
 void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, const Outputs& out) const {

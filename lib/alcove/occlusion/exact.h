@@ -11,6 +11,13 @@
 
 namespace alcove {
 
+/// A place on a triangle.
+struct SurfaceHit {
+    Triangle vertices{}; ///< positions as they were given
+    Vec3 weights{0.0f};  ///< of the vertices, of sum 1
+    Vec3 normal{0.0f};   ///< of the triangle, of any length
+};
+
 /// Triangles under a bounding volume hierarchy. I. Wald et al., "Embree: A Kernel Framework for Efficient CPU
 /// Ray Tracing" (2014). Copies share it; `const` use is safe from any number of threads.
 class RaySurface {
@@ -24,6 +31,9 @@ class RaySurface {
     /// within `far`, which may be infinite. Cost: about 0.1 µs a ray where neighbours in the batch start near
     /// each other.
     void find_occluded(RayBatch& rays, float far) const;
+
+    /// The same, and for those that meet one: the nearest, in `travelled` how far it is, and in `hits`, one a ray, where.
+    void find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const;
 
   private:
     struct Scene;

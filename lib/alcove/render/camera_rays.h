@@ -30,7 +30,8 @@ struct Hits {
         surfels;               ///< unit space, normals toward the eye; without a normal where nothing was met
     std::vector<float> depths; ///< along the view axis, scene units
     std::vector<ObjectId> objects;
-    std::vector<float> steps; ///< map() calls on the way of each ray; empty where nobody asks
+    std::vector<float> painted; ///< in [0, 1]; empty where nothing is painted
+    std::vector<float> steps;   ///< map() calls on the way of each ray; empty where nobody asks
 
     void resize(std::size_t samples, bool with_steps) {
         surfels.resize(samples);

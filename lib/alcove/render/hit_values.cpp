@@ -25,8 +25,9 @@ int parameter(const Method& method, const Settings& settings, std::string_view n
 }
 
 /// Bakes what is near with as many samples as the settings say, what is far with fewer.
-std::vector<float> bake_by_distance(std::span<const Surfel> surfels, const AnyField& field, const Vec3d& eye,
-                                    const RenderOptions& options, const Progress& progress) {
+std::vector<float> bake_by_distance(std::span<const Surfel> surfels, const Occluders& surroundings,
+                                    const Vec3d& eye, const RenderOptions& options,
+                                    const Progress& progress) {
     const int near_samples = parameter(*options.method, options.settings, "samples");
     const auto samples_of = [&](const Surfel& surfel) {
         return samples_at(static_cast<float>(glm::length(Vec3d(surfel.position) - eye)), near_samples,
@@ -42,8 +43,9 @@ std::vector<float> bake_by_distance(std::span<const Surfel> surfels, const AnyFi
                 chosen.push_back(surfels[i]);
                 places.push_back(i);
             }
-        const ChannelValues baked = bake_channels(
-            chosen, field, *options.method, with_samples(options.settings, samples), Channel::ao, progress);
+        const ChannelValues baked =
+            bake_channels(chosen, surroundings, *options.method, with_samples(options.settings, samples),
+                          Channel::ao, progress);
         for (std::size_t k = 0; k < places.size(); ++k)
             ao[places[k]] = baked[Channel::ao][k];
     }
@@ -58,7 +60,7 @@ int samples_at(float distance, int near_samples, const FewerSamples& fewer) {
                                         way * static_cast<float>(fewer.far_samples - near_samples)));
 }
 
-HitValues values_of(const Hits& hits, const Subject& subject, const AnyField& surroundings, const Vec3d& eye,
+HitValues values_of(const Hits& hits, const Subject& subject, const Occluders& surroundings, const Vec3d& eye,
                     const RenderOptions& options, const Progress& progress) {
     const bool beauty = options.passes.has(Pass::beauty);
     const bool ao = options.passes.has(Pass::ao) || beauty;
@@ -76,7 +78,7 @@ HitValues values_of(const Hits& hits, const Subject& subject, const AnyField& su
                                                    settings, Channel::convexity)[Channel::convexity]);
     }
     if (options.passes.has(Pass::shadow) || (beauty && options.shadow))
-        values.shadow = soft_shadows(hits.surfels, surroundings, options.lighting.toward_key,
+        values.shadow = soft_shadows(hits.surfels, surroundings.field(), options.lighting.toward_key,
                                      options.shadow.value_or(SoftShadow{}));
     return values;
 }

@@ -12,7 +12,7 @@ struct HitValues {
 };
 
 /// `surroundings` is what occludes, the eye is in unit space.
-HitValues values_of(const Hits& hits, const Subject& subject, const AnyField& surroundings, const Vec3d& eye,
+HitValues values_of(const Hits& hits, const Subject& subject, const Occluders& surroundings, const Vec3d& eye,
                     const RenderOptions& options, const Progress& progress);
 
 }

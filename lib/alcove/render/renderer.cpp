@@ -2,6 +2,7 @@
 
 #include "alcove/parallel.h"
 #include "alcove/render/hit_values.h"
+#include "alcove/render/snap.h"
 
 #include <algorithm>
 
@@ -78,7 +79,8 @@ class Resolver {
                               .to_eye = glm::normalize(Vec3(eye_ - Vec3d(surfel.position))),
                               .ao = value(values.ao, s, 1.0f),
                               .shadow = value(values.shadow, s, 1.0f),
-                              .convexity = value(values.convexity, s, 0.5f)};
+                              .convexity = value(values.convexity, s, 0.5f),
+                              .painted = value(hits.painted, s, 1.0f)};
             alpha += coverage;
             ao += coverage * place.ao;
             convexity += coverage * place.convexity;
@@ -130,7 +132,10 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
              const Progress& progress) {
     Image image(camera.size().width, camera.size().height, options.passes);
     const CameraRays rays(subject, camera, options.samples);
-    const AnyField surroundings = subject.surroundings();
+    const bool asks_rays = options.method && options.method->asks_rays;
+    const Occluders surroundings = asks_rays && subject.mesh
+                                       ? Occluders(subject.surroundings(), subject.mesh->surface)
+                                       : Occluders(subject.surroundings());
     const Vec3d eye = (camera.eye() - subject.frame.center) / subject.frame.diagonal;
     const Resolver resolve(subject, eye, options, image);
     const bool shows_ao = options.passes.has(Pass::ao) || options.passes.has(Pass::beauty);
@@ -144,6 +149,12 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
                     options.passes.has(Pass::steps));
         parallel_for(region.tiles(CameraRays::tile_side), 32,
                      [&](std::size_t begin, std::size_t end) { rays.trace(region, begin, end, hits); });
+        if (subject.mesh) {
+            hits.painted.resize(subject.mesh->painted.empty() ? 0 : hits.surfels.size());
+            parallel_for(
+                hits.surfels.size(), 16 * RayBatch::capacity,
+                [&](std::size_t begin, std::size_t end) { snap(subject, camera, begin, end, hits); });
+        }
         const auto done = [&](double part) {
             if (progress)
                 progress((static_cast<double>(finished) + part * static_cast<double>(region.pixels())) /

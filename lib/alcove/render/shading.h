@@ -46,6 +46,7 @@ struct Place {
     Vec3 to_eye{0.0f, 1.0f, 0.0f};
     float ao = 1.0f, shadow = 1.0f; ///< shares of light that arrive
     float convexity = 0.5f;
+    float painted = 1.0f; ///< multiplies ao, as the material's occlusion does
 };
 
 /// The share of the sky above a surface that nothing covers: ½ + ½ u.
@@ -77,7 +78,7 @@ inline float edge_share(float convexity) {
 
 /// All of these together.
 inline Vec3 shade(const Lighting& lighting, const Material& material, const Place& place) {
-    const float ao = place.ao * material.occlusion;
+    const float ao = place.ao * material.occlusion * place.painted;
     const float upward = glm::dot(place.normal, lighting.up);
     const Vec3 direct =
         std::max(0.0f, glm::dot(place.normal, lighting.toward_key)) * place.shadow * lighting.key;

@@ -4,8 +4,10 @@
 #include "alcove/field/any_field.h"
 #include "alcove/field/primitives.h"
 #include "alcove/render/shading.h"
+#include "alcove/render/subject_mesh.h"
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace alcove {
@@ -33,6 +35,8 @@ struct Subject {
     Box box;                   ///< scene units; nothing of the field is drawn outside it
     std::vector<Part> parts{}; ///< whose union the field is; of none the field is one part
     std::vector<Ground> grounds{};
+    std::shared_ptr<const SubjectMesh>
+        mesh{}; ///< of all or some of it; null where nothing asks for triangles
 
     /// The field and the grounds: what occludes.
     AnyField surroundings() const;

@@ -3,6 +3,7 @@
 #include "alcove/errors.h"
 #include "alcove/field/combine.h"
 #include "alcove/scene/prop_fields.h"
+#include "alcove/scene/triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,13 +136,16 @@ Staged stage(const Scene& scene, PassSet passes, const Progress& progress) {
     if (parts.empty() && grounds.empty())
         throw InputError("the scene is empty: add an [[object]]");
 
+    auto mesh = triangles_of(props, parts, grounds, frame,
+                             scene.occlusion.method && scene.occlusion.method->asks_rays);
     AnyField field = united(parts);
     std::vector<Vec3d> points;
     if (!parts.empty())
         points = outline(field, frame).points;
-    Staged staged{.subject = {std::move(field), frame, box, std::move(parts), std::move(grounds)},
-                  .points = std::move(points),
-                  .radius = radius};
+    Staged staged{
+        .subject = {std::move(field), frame, box, std::move(parts), std::move(grounds), std::move(mesh)},
+        .points = std::move(points),
+        .radius = radius};
     for_each_prop(props, [&](const Prop& prop) {
         for (const std::string& warning : prop.warnings)
             staged.warnings.push_back(props.size() > 1 ? prop.object->name + ": " + warning : warning);

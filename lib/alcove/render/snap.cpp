@@ -1,0 +1,86 @@
+#include "alcove/render/snap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+/// A value of the corners of a triangle, at a place of it.
+template <class T>
+T interpolated(const std::vector<T>& values, const SurfaceHit& hit) {
+    T sum = hit.weights[0] * values[hit.vertices[0]];
+    for (int corner = 1; corner < 3; ++corner)
+        sum += hit.weights[corner] * values[hit.vertices[static_cast<std::size_t>(corner)]];
+    return sum;
+}
+
+class Snapper {
+  public:
+    Snapper(const Subject& subject, const Camera& camera, Hits& hits)
+        : subject_(subject), camera_(camera), hits_(hits),
+          eye_((camera.eye() - subject.frame.center) / subject.frame.diagonal),
+          reach_(std::max(3.0f * resolution(subject.field), 1e-3f)) {}
+
+    void add(std::size_t sample) {
+        const Vec3 direction(glm::normalize(Vec3d(hits_.surfels[sample].position) - eye_));
+        owner_[rays_.count] = sample;
+        rays_.push_back({hits_.surfels[sample].position - reach_ * direction, direction}, 0.0f);
+        if (rays_.count == RayBatch::capacity)
+            flush();
+    }
+
+    void flush() {
+        const SubjectMesh& mesh = *subject_.mesh;
+        mesh.surface.find_nearest(rays_, 2.0f * reach_, places_);
+        for (std::size_t i = 0; i < rays_.count; ++i)
+            if (rays_.hit[i])
+                move(owner_[i], i);
+        rays_.count = 0;
+    }
+
+  private:
+    void move(std::size_t sample, std::size_t i) {
+        Surfel& surfel = hits_.surfels[sample];
+        const Vec3 direction(rays_.dx[i], rays_.dy[i], rays_.dz[i]);
+        surfel.position += (rays_.travelled[i] - reach_) * direction;
+        hits_.depths[sample] +=
+            static_cast<float>(double(rays_.travelled[i] - reach_) * subject_.frame.diagonal *
+                               glm::dot(Vec3d(direction), camera_.forward()));
+        const Vec3 normal = interpolated(subject_.mesh->normals, places_[i]);
+        if (const float length = glm::length(normal); length > 1e-6f) {
+            const float away = glm::dot(normal, direction);
+            // Mirrored where it leans over at a silhouette, turned where the back is seen.
+            const bool back =
+                glm::dot(places_[i].normal, normal) * glm::dot(places_[i].normal, direction) > 0.0f;
+            const Vec3 toward = back ? -normal : away > 0.0f ? normal - 2.0f * away * direction : normal;
+            surfel.normal = toward / length;
+        }
+        if (!hits_.painted.empty())
+            hits_.painted[sample] = interpolated(subject_.mesh->painted, places_[i]);
+    }
+
+    const Subject& subject_;
+    const Camera& camera_;
+    Hits& hits_;
+    Vec3d eye_;
+    float reach_;
+    RayBatch rays_;
+    std::array<std::size_t, RayBatch::capacity> owner_;
+    std::array<SurfaceHit, RayBatch::capacity> places_;
+};
+
+}
+
+void snap(const Subject& subject, const Camera& camera, std::size_t begin, std::size_t end, Hits& hits) {
+    Snapper snapper(subject, camera, hits);
+    for (std::size_t sample = begin; sample < end; ++sample) {
+        if (!hits.painted.empty())
+            hits.painted[sample] = 1.0f;
+        if (hits.objects[sample] != no_object && ground_of(subject, hits.objects[sample]) == nullptr)
+            snapper.add(sample);
+    }
+    snapper.flush();
+}
+
+}

@@ -1,0 +1,125 @@
+#include "alcove/scene/triangles.h"
+
+#include "alcove/errors.h"
+#include "alcove/grid/mesh_grid.h"
+#include "alcove/mesh/normals.h"
+#include "alcove/mesh/triangulate.h"
+#include "alcove/occlusion/directions.h"
+
+#include <array>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+constexpr float voxel = 1.0f / 256.0f;
+
+/// Share of light of a byte of sRGB. IEC 61966-2-1 (1999).
+float decoded(std::uint8_t byte) {
+    const float s = static_cast<float>(byte) / 255.0f;
+    return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
+
+class Collector {
+  public:
+    explicit Collector(const Frame& frame) : frame_(frame) {}
+
+    void add_mesh(const Prop& prop, const MeshShape& shape) {
+        const auto first = static_cast<std::uint32_t>(positions_.size());
+        std::vector<Surfel> own;
+        if (shape.own_normals)
+            own = make_surfels(prop.mesh, prop.triangles, frame_of(prop.mesh.box()));
+        if (shape.painted && prop.mesh.vertex_colors.empty())
+            throw InputError(prop.object->name + ": is painted, but the mesh has no vertex colours");
+        for (std::size_t v = 0; v < prop.mesh.positions.size(); ++v) {
+            const Vec3d& p = prop.mesh.positions[v];
+            positions_.push_back(is_finite(p) ? frame_.to_unit(prop.pose(p)) : Vec3(0.0f));
+            normals_.push_back(own.empty() ? Vec3(0.0f) : Vec3(prop.pose.rotation * Vec3d(own[v].normal)));
+            painted_.push_back(1.0f);
+            if (shape.painted) {
+                const Color& color = prop.mesh.vertex_colors[v];
+                painted_.back() = (decoded(color[0]) + decoded(color[1]) + decoded(color[2])) / 3.0f;
+            }
+        }
+        is_painted_ = is_painted_ || shape.painted;
+        add_triangles(prop.triangles, first);
+    }
+
+    void add_field(const Prop& prop, const AnyField& field) {
+        if (two_sided(field))
+            throw InputError(prop.object->name +
+                             ": holds an open surface, of which only the mesh itself has triangles");
+        const Mesh mesh = mesh_zero_surface(
+            [&](std::span<const Vec3> points, float* distances) {
+                for (std::size_t i = 0; i < points.size(); ++i)
+                    distances[i] = field.map(points[i]);
+            },
+            voxel);
+        const auto first = static_cast<std::uint32_t>(positions_.size());
+        for (const Vec3d& p : mesh.positions)
+            add_position(Vec3(p));
+        add_triangles(triangulate(mesh).triangles, first);
+    }
+
+    void add_ground(const Plane& plane) {
+        const Basis basis(plane.normal);
+        const auto first = static_cast<std::uint32_t>(positions_.size());
+        constexpr float horizon = 100.0f; // as far as a field without an end is traced
+        for (const Vec2 corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
+            add_position(plane.offset * basis.normal +
+                         horizon * (corner.x * basis.tangent + corner.y * basis.bitangent));
+        add_triangles(std::array{Triangle{0, 1, 2}, Triangle{0, 2, 3}}, first);
+    }
+
+    std::shared_ptr<const SubjectMesh> collected() {
+        if (triangles_.empty())
+            return nullptr;
+        if (!is_painted_)
+            painted_.clear();
+        return std::make_shared<const SubjectMesh>(
+            SubjectMesh{RaySurface(positions_, triangles_), std::move(normals_), std::move(painted_)});
+    }
+
+  private:
+    void add_position(const Vec3& p) {
+        positions_.push_back(p);
+        normals_.emplace_back(0.0f);
+        painted_.push_back(1.0f);
+    }
+    void add_triangles(std::span<const Triangle> triangles, std::uint32_t first) {
+        for (const Triangle& t : triangles)
+            triangles_.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+
+    const Frame& frame_;
+    std::vector<Vec3> positions_, normals_;
+    std::vector<float> painted_;
+    std::vector<Triangle> triangles_;
+    bool is_painted_ = false;
+};
+
+}
+
+std::shared_ptr<const SubjectMesh> triangles_of(const std::vector<Prop>& props,
+                                                const std::vector<Part>& parts,
+                                                const std::vector<Ground>& grounds, const Frame& frame,
+                                                bool all) {
+    Collector collector(frame);
+    std::size_t part = 0;
+    for (const Prop& prop : props) {
+        if (std::holds_alternative<PlaneShape>(prop.object->shape))
+            continue;
+        const AnyField& field = parts[part++].field;
+        const auto* mesh = std::get_if<MeshShape>(&prop.object->shape);
+        if (mesh && (all || mesh->own_normals || mesh->painted))
+            collector.add_mesh(prop, *mesh);
+        else if (all)
+            collector.add_field(prop, field);
+    }
+    if (all)
+        for (const Ground& ground : grounds)
+            collector.add_ground(ground.plane);
+    return collector.collected();
+}
+
+}

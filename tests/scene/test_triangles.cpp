@@ -1,0 +1,178 @@
+/// What pictures take from triangles: normals, painted values, exact rays.
+#include "scene_text.h"
+
+#include "alcove/errors.h"
+#include "alcove/mesh/write.h"
+#include "alcove/scene/staging.h"
+#include "shapes.h"
+
+#include <cmath>
+
+namespace alcove::test {
+namespace {
+
+struct Drawn {
+    Staged staged;
+    Camera camera;
+    Image image;
+};
+
+Drawn draw(const Scene& scene, PassSet passes) {
+    Staged staged = stage(scene, passes);
+    const Camera camera = make_camera(scene.camera, staged.points, scene.size);
+    Image image = render(staged.subject, camera, rendering_of(scene, staged, camera, passes));
+    return {std::move(staged), camera, std::move(image)};
+}
+
+/// A coarse ball of few triangles as a file, its vertices black above and white below.
+class BallFile : public testing::Test {
+  protected:
+    BallFile() {
+        Mesh mesh = sphere_mesh(2);
+        for (const Vec3d& p : mesh.positions)
+            mesh.vertex_colors.push_back(p.y > 0.0 ? Color{0, 0, 0, 255} : Color{255, 255, 255, 255});
+        std::filesystem::create_directories(folder_);
+        std::ofstream ply(folder_ / "ball.ply");
+        ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
+            << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar "
+               "green\n"
+               "property uchar blue\nelement face "
+            << mesh.face_count() << "\nproperty list uchar int vertex_indices\nend_header\n";
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            const Vec3d& p = mesh.positions[v];
+            const int grey = mesh.vertex_colors[v][0];
+            ply << p.x << " " << p.y << " " << p.z << " " << grey << " " << grey << " " << grey << "\n";
+        }
+        for (std::size_t f = 0; f < mesh.face_count(); ++f)
+            ply << "3 " << mesh.face(f)[0] << " " << mesh.face(f)[1] << " " << mesh.face(f)[2] << "\n";
+    }
+    ~BallFile() override { std::filesystem::remove_all(folder_); }
+
+    Scene scene(const std::string& more) const {
+        return scene_from(
+            "[image]\nwidth = 120\nheight = 90\nsamples = 1\n[occlusion]\nmethod = \"none\"\n[[object]]\n"
+            "shape = \"mesh\"\nfile = \"" +
+            (folder_ / "ball.ply").string() + "\"\n" + more);
+    }
+
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() /
+        (std::string("alcove_ball_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(BallFile, NormalsOfTheMeshAreSmoothAndThoseOfTheFieldAreNot) {
+    // Between the normals of the corners of a coarse ball, those of the ball itself are near.
+    const auto largest_angle = [](const Drawn& drawn) {
+        double largest = 0.0;
+        for (std::size_t i = 0; i < drawn.image.pixels(); ++i) {
+            const Vec3d out = glm::normalize(Vec3d(drawn.image.position[i]));
+            const Vec3d way = glm::normalize(Vec3d(drawn.image.position[i]) - drawn.camera.eye());
+            if (drawn.image.alpha[i] == 1.0f && glm::dot(out, way) < -0.4)
+                largest = std::fmax(largest,
+                                    std::acos(std::fmin(1.0, glm::dot(out, Vec3d(drawn.image.normal[i])))));
+        }
+        return largest * 180.0 / 3.14159265358979;
+    };
+    const PassSet passes = Pass::normal | Pass::position | Pass::depth;
+    const double field = largest_angle(draw(scene("normals = \"field\"\n"), passes));
+    const double mesh = largest_angle(draw(scene("normals = \"mesh\"\nrotate = [10, 20, 30]\n"), passes));
+    EXPECT_GT(field, 8.0);
+    EXPECT_LT(mesh, 0.6 * field);
+}
+
+TEST_F(BallFile, PlacesAreMovedOntoTheTriangles) {
+    const Drawn drawn = draw(scene("normals = \"mesh\"\n"), Pass::position | Pass::depth);
+    const Mesh ball = sphere_mesh(2);
+    double inside = 1.0; // the nearest of its planes
+    for (std::size_t f = 0; f < ball.face_count(); ++f) {
+        const Vec3d &a = ball.positions[ball.face(f)[0]], &b = ball.positions[ball.face(f)[1]],
+                    &c = ball.positions[ball.face(f)[2]];
+        inside = std::fmin(inside, glm::dot(glm::normalize(glm::cross(b - a, c - a)), a) - 1e-5);
+    }
+    int seen = 0;
+    for (std::size_t i = 0; i < drawn.image.pixels(); ++i) {
+        if (drawn.image.alpha[i] < 1.0f)
+            continue;
+        ++seen;
+        // A pixel's own ray, as far as the depth says.
+        const Vec3d way =
+            drawn.camera.direction(static_cast<double>(i % 120) + 0.5, static_cast<double>(i / 120) + 0.5);
+        const Vec3d p =
+            drawn.camera.eye() + way * (double(drawn.image.depth[i]) / glm::dot(way, drawn.camera.forward()));
+        EXPECT_NEAR(glm::length(p - Vec3d(drawn.image.position[i])), 0.0, 1e-4);
+        EXPECT_LE(glm::length(p), 1.0 + 1e-5); // chords of the ball
+        EXPECT_GE(glm::length(p), inside);
+    }
+    EXPECT_GT(seen, 2000);
+}
+
+TEST_F(BallFile, PaintedValuesMultiplyOcclusion) {
+    Scene painted = scene("painted = true\n"), plain = scene("");
+    painted.camera.eye = plain.camera.eye = Vec3d(4, 0, 0);
+    for (Scene* one : {&painted, &plain}) {
+        one->light.sun = Vec3(0.0f);
+        one->light.bounce = Vec3(0.0f);
+        one->light.sky = Vec3(1.0f);
+        one->occlusion.use = OcclusionUse::ambient;
+    }
+    const PassSet passes = Pass::beauty | Pass::position;
+    const Image dark = draw(painted, passes).image, bright = draw(plain, passes).image;
+    int above = 0, below = 0;
+    for (std::size_t i = 0; i < dark.pixels(); ++i) {
+        if (dark.alpha[i] < 1.0f || bright.alpha[i] < 1.0f)
+            continue;
+        const double share = double(dark.color[i].x) / double(bright.color[i].x);
+        // A triangle away from the equator all corners are alike.
+        if (dark.position[i].y > 0.45f) {
+            EXPECT_NEAR(share, 0.0, 1e-6);
+            ++above;
+        } else if (dark.position[i].y < -0.45f) {
+            EXPECT_NEAR(share, 1.0, 1e-6);
+            ++below;
+        }
+    }
+    EXPECT_GT(above, 100);
+    EXPECT_GT(below, 100);
+}
+
+/// Exact rays on the triangles of primitives and differences against rays traced through the same fields.
+TEST(TrianglesOfAScene, ExactRaysAgreeWithTracedOnes) {
+    Scene scene = scene_from(R"(
+[image]
+width = 96
+height = 72
+samples = 1
+[occlusion]
+method = "traced"
+radius = 0.5
+rays = 256
+[ground]
+[[object]]
+shape = "difference"
+part = [{ shape = "box", size = [2, 1, 2] }, { shape = "sphere", center = [0, 0.5, 0], radius = 0.6 }]
+[[object]]
+shape = "torus"
+ring = 0.5
+tube = 0.15
+translate = [0, 0.7, 0]
+)");
+    const Image traced = draw(scene, Pass::ao).image;
+    scene.occlusion.choose("exact");
+    scene.occlusion.parameters = {{"rays", 256.0}};
+    const Image exact = draw(scene, Pass::ao).image;
+    double sum = 0.0, bias = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < exact.pixels(); ++i)
+        if (exact.alpha[i] == 1.0f) {
+            const double error = double(exact.ao[i]) - double(traced.ao[i]);
+            sum += error * error;
+            bias += error;
+            ++count;
+        }
+    EXPECT_GT(count, 3000);
+    EXPECT_LT(std::sqrt(sum / count), 0.03);
+    EXPECT_LT(std::fabs(bias / count), 0.005);
+}
+
+}
+}
