@@ -102,9 +102,9 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
                     throw UsageError(fmt::format("--normals takes field or mesh, not '{}'", source));
                 request.own_normals = source == "mesh";
             },
-            "field: as the level set is; mesh: smooth, the file's own or area-weighted ones")
+            "mesh: smooth but for edges; field: as the level set is")
         ->type_name("NAME")
-        ->default_str("field");
+        ->default_str("mesh");
     verb.parse_complete_callback([&verb, &request] {
         request.radius_given = verb.count("--radius") > 0;
         request.method_given = verb.count("--method") > 0;
@@ -119,7 +119,7 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
         mesh->voxel = parse_voxel(request.grid.voxel);
         mesh->sign = parse_sign(request.grid.sign);
         mesh->own_normals = request.own_normals;
-    } else if (request.grid.voxel != "auto" || request.grid.sign != "auto" || request.own_normals) {
+    } else if (request.grid.voxel != "auto" || request.grid.sign != "auto" || !request.own_normals) {
         throw UsageError(fmt::format("--voxel, --sign and --normals are for meshes: {} is a {}",
                                      request.input,
                                      described ? "scene, which has them in its objects" : "grid already"));

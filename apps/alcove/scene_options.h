@@ -19,7 +19,7 @@ struct SceneRequest {
     std::string size, eye, look_at, up;              ///< empty: those of the scene
     std::optional<double> fov{};
     std::optional<int> pixel_samples{};
-    bool no_ground = false, no_shadow = false, own_normals = false;
+    bool no_ground = false, no_shadow = false, own_normals = true;
 };
 
 /// Adds the input, and the options of all these.

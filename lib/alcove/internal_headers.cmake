@@ -46,6 +46,7 @@ set(alcove_internal_headers
     render/hit_values.h
     render/snap.h
     resident_memory.h
+    scene/corner_normals.h
     scene/pose.h
     scene/prop_fields.h
     scene/props.h

@@ -142,7 +142,7 @@ TEST_F(RenderVerb, DrawsByRaysOnTheTriangles) {
     write("cube.off", cube_off);
     for (const std::string method : {"exact", "guided"})
         EXPECT_EQ(draw({"cube.off", "-o", "a.png", "--method", method, "--rays", "2"}).code, done) << method;
-    EXPECT_EQ(draw({"cube.off", "-o", "b.png", "--normals", "mesh"}).code, done);
+    EXPECT_EQ(draw({"cube.off", "-o", "b.png", "--normals", "field"}).code, done);
     expect_refusal({"render", "cube.off", "-o", "b.png", "--normals", "smooth"}, usage,
                    {"--normals", "smooth"});
     write("painted.toml", "[[object]]\nshape = \"mesh\"\nfile = \"cube.off\"\npainted = true\n");

@@ -61,7 +61,7 @@ shape = "mesh"
 file = "a/scan.ply"
 voxel = "0.5%"
 sign = "unsigned"
-normals = "mesh"
+normals = "field"
 painted = true
 
 [[object]]
@@ -92,7 +92,7 @@ part = [{ shape = "sphere" }, { shape = "union", part = [{ shape = "plane" }] }]
     ASSERT_TRUE(mesh.voxel);
     EXPECT_EQ(mesh.voxel->value, 0.005);
     EXPECT_EQ(mesh.sign, SignChoice::sheet);
-    EXPECT_TRUE(mesh.own_normals && mesh.painted);
+    EXPECT_TRUE(!mesh.own_normals && mesh.painted);
     EXPECT_EQ(std::get<GridShape>(scene.objects[6].shape).file, "/b/grid.vdb");
     const auto& cut = std::get<CompositeShape>(scene.objects[7].shape);
     EXPECT_EQ(cut.operation, CompositeShape::Operation::subtract);

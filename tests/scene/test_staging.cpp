@@ -3,6 +3,7 @@
 #include "alcove/errors.h"
 #include "alcove/field/primitives.h"
 #include "alcove/scene/staging.h"
+#include "shapes.h"
 
 #include <cmath>
 #include <random>
@@ -135,6 +136,32 @@ TEST(Staging, AFieldNearEnoughToAScaledAndMovedSceneIsTheSame) {
     for (const Vec3d& p : random_places(3.0)) {
         EXPECT_NEAR(small(1e-6 * p) * 1e6, large(1e9 * p + Vec3d(1e10, 0, 0)) * 1e-9, 1e-5);
     }
+}
+
+/// A soft shadow tells distances from the way over its sharpness: where they are cut, open ground is dark.
+TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
+    std::filesystem::create_directories(std::filesystem::temp_directory_path() / "alcove_reach");
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "alcove_reach/ball.off";
+    {
+        std::ofstream off(file);
+        const Mesh ball = sphere_mesh(3);
+        off << "OFF " << ball.positions.size() << " " << ball.face_count() << " 0\n";
+        for (const Vec3d& p : ball.positions)
+            off << p.x << " " << p.y << " " << p.z << "\n";
+        for (std::size_t f = 0; f < ball.face_count(); ++f)
+            off << "3 " << ball.face(f)[0] << " " << ball.face(f)[1] << " " << ball.face(f)[2] << "\n";
+    }
+    Scene scene = scene_of(file);
+    scene.occlusion.radius = {0.02, Length::Unit::diagonal};
+    const auto distance_at = [&](double x) {
+        const Staged staged = stage(scene, Pass::beauty);
+        const Frame& frame = staged.subject.frame;
+        return double(staged.subject.field.map(frame.to_unit({x, 0, 0}))) * frame.diagonal;
+    };
+    EXPECT_NEAR(distance_at(2.2), 1.2, 0.05); // a third of the diagonal away voxels are coarse
+    scene.light.shadow.reset();
+    EXPECT_LT(distance_at(1.7), 0.68); // only a bound: no more was asked
+    std::filesystem::remove_all(file.parent_path());
 }
 
 void expect_refusal(const std::string& text, std::initializer_list<const char*> parts) {

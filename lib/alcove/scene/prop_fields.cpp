@@ -30,16 +30,18 @@ AnyField put_stack(const Prop& prop, const Stage& stage) {
     return LevelStack(reframed(prop.stack, of_stage));
 }
 
-/// How far occlusion looks, in the unit space of a frame in the space of the prop.
-float reach_in(const Frame& own, const Prop& prop, const Stage& stage) {
-    return static_cast<float>(double(stage.radius) * stage.frame.diagonal / (own.diagonal * prop.pose.scale));
+/// A length of the stage, in the unit space of a frame in the space of the prop.
+float in_unit_of(const Frame& own, float length, const Prop& prop, const Stage& stage) {
+    return static_cast<float>(double(length) * stage.frame.diagonal / (own.diagonal * prop.pose.scale));
 }
 
 void voxelize_mesh(const MeshShape& shape, Prop& prop, const Stage& stage, bool inside) {
     const Frame own = frame_of(prop.mesh.box());
     VoxelizeOptions options;
     options.sign = shape.sign;
-    options.grid.radius = reach_in(own, prop, stage);
+    const float radius = in_unit_of(own, stage.radius, prop, stage);
+    options.grid.radius = std::max(radius, in_unit_of(own, stage.reach, prop, stage));
+    options.grid.largest_voxel = chosen_voxel(radius, options.grid.largest_voxel);
     options.grid.memory_limit = stage.memory_limit;
     if (inside)
         options.grid.inner_band = options.grid.outer_band;
@@ -59,14 +61,14 @@ void voxelize_mesh(const MeshShape& shape, Prop& prop, const Stage& stage, bool 
 
 void extend_grid(const GridShape& shape, Prop& prop, const Stage& stage, bool inside) {
     const float reach = prop.stack.reach();
-    const float wanted = stage.occlusion ? std::min(reach_in(prop.stack.frame, prop, stage), 1.0f) : 0.0f;
+    const float wanted = std::min(in_unit_of(prop.stack.frame, stage.reach, prop, stage), 1.0f);
     if (reach >= wanted && !inside)
         return;
     if (prop.stack.sign == Sign::sheet) {
-        prop.warnings.push_back(fmt::format("{} holds distances up to {:.4g}, less than the radius: beyond "
-                                            "them occlusion is guessed; voxelize its "
-                                            "mesh with a larger --radius",
-                                            shape.file.string(), reach * prop.stack.frame.diagonal));
+        prop.warnings.push_back(fmt::format(
+            "{} holds distances up to {:.4g}, less than occlusion and shadows ask: beyond them these are "
+            "guessed; voxelize its mesh with a larger --radius",
+            shape.file.string(), reach * prop.stack.frame.diagonal));
         return;
     }
     try {

@@ -9,15 +9,15 @@ namespace alcove {
 
 /// What all fields of a scene have in common.
 struct Stage {
-    Frame frame;         ///< of unit space
-    float radius;        ///< as far as occlusion looks, unit space
-    bool occlusion;      ///< whether it looks at all
+    Frame frame;  ///< of unit space
+    float radius; ///< of occlusion, which voxels follow, unit space
+    float reach; ///< as far as distances are to be right, unit space; 0 where nothing but the eye's rays asks
     double memory_limit; ///< bytes that the grids of each prop may take
     Progress progress{}; ///< of one grid
 };
 
-/// Makes the stack of a mesh, and extends that of a level set as far as occlusion looks. With `inside`, distances of
-/// the inside are right as far, too. Warnings go to the prop. \throw InputError naming the object or its file: what
+/// Makes the stack of a mesh, and extends that of a level set to the reach. With `inside`, distances of the inside are
+/// right as far, too. Warnings go to the prop. \throw InputError naming the object or its file: what
 /// voxelize() and extend_levels() throw, and a difference or blended union of what is no solid; LimitError as
 /// voxelize().
 AnyField field_of(Prop& prop, const Stage& stage, bool inside = false);

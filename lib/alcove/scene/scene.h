@@ -51,8 +51,8 @@ struct MeshShape {
     std::optional<Length>
         voxel{}; ///< of the mesh's own diagonal where it is a share; chosen where it is none
     SignChoice sign = SignChoice::automatic;
-    bool own_normals = false; ///< the file's, or area-weighted ones, instead of those of the field
-    bool painted = false;     ///< the brightness of its vertex colours multiplies occlusion
+    bool own_normals = true; ///< of the mesh (corner_normals()) instead of those of the field
+    bool painted = false;    ///< the brightness of its vertex colours multiplies occlusion
 };
 /// A level set in a .vdb.
 struct GridShape {

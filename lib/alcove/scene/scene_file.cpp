@@ -145,7 +145,7 @@ class ObjectReader {
             constexpr SignChoice signs[] = {SignChoice::automatic, SignChoice::solid, SignChoice::sheet};
             if (const auto sign = table.word("sign", {"auto", "signed", "unsigned"}))
                 mesh.sign = signs[*sign];
-            mesh.own_normals = table.word("normals", {"field", "mesh"}) == std::size_t{1};
+            mesh.own_normals = table.word("normals", {"field", "mesh"}) != std::size_t{0};
             take(mesh.painted, table.flag("painted"));
             return mesh;
         }

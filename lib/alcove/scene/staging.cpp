@@ -61,6 +61,14 @@ AnyField united(const std::vector<Part>& parts) {
     return UnionOf<AnyField>(std::move(fields));
 }
 
+/// As far as distances are to be right. A soft shadow tells those from less than the way, over its sharpness.
+float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity) {
+    const bool shadow = passes.has(Pass::shadow) || (passes.has(Pass::beauty) && scene.light.shadow);
+    const SoftShadow shape = scene.light.shadow.value_or(SoftShadow{});
+    return std::max(scene.occlusion.method || convexity ? radius : 0.0f,
+                    shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
+}
+
 /// The gradient's direction, by differences.
 Vec3 steepest(const AnyField& field, const Vec3& p) {
     constexpr float h = 1e-3f;
@@ -108,7 +116,7 @@ Staged stage(const Scene& scene, PassSet passes, const Progress& progress) {
     const float radius = scene.occlusion.radius.to_unit(frame.diagonal, named_voxel(props, frame));
     const bool convexity =
         passes.has(Pass::convexity) || (passes.has(Pass::beauty) && has_edge_colors(scene));
-    const Stage common{frame, radius, scene.occlusion.method != nullptr || convexity,
+    const Stage common{frame, radius, reach_of(scene, passes, radius, convexity),
                        memory_limit / std::max(1.0, static_cast<double>(count_grids(props))), progress};
 
     std::vector<Part> parts;

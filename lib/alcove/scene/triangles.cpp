@@ -2,9 +2,9 @@
 
 #include "alcove/errors.h"
 #include "alcove/grid/mesh_grid.h"
-#include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/directions.h"
+#include "alcove/scene/corner_normals.h"
 
 #include <array>
 #include <cmath>
@@ -20,29 +20,39 @@ float decoded(std::uint8_t byte) {
     return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
+float brightness(const Color& color) {
+    return (decoded(color[0]) + decoded(color[1]) + decoded(color[2])) / 3.0f;
+}
+
 class Collector {
   public:
     explicit Collector(const Frame& frame) : frame_(frame) {}
 
     void add_mesh(const Prop& prop, const MeshShape& shape) {
-        const auto first = static_cast<std::uint32_t>(positions_.size());
-        std::vector<Surfel> own;
-        if (shape.own_normals)
-            own = make_surfels(prop.mesh, prop.triangles, frame_of(prop.mesh.box()));
         if (shape.painted && prop.mesh.vertex_colors.empty())
             throw InputError(prop.object->name + ": is painted, but the mesh has no vertex colours");
-        for (std::size_t v = 0; v < prop.mesh.positions.size(); ++v) {
-            const Vec3d& p = prop.mesh.positions[v];
-            positions_.push_back(is_finite(p) ? frame_.to_unit(prop.pose(p)) : Vec3(0.0f));
-            normals_.push_back(own.empty() ? Vec3(0.0f) : Vec3(prop.pose.rotation * Vec3d(own[v].normal)));
-            painted_.push_back(1.0f);
-            if (shape.painted) {
-                const Color& color = prop.mesh.vertex_colors[v];
-                painted_.back() = (decoded(color[0]) + decoded(color[1]) + decoded(color[2])) / 3.0f;
-            }
-        }
         is_painted_ = is_painted_ || shape.painted;
-        add_triangles(prop.triangles, first);
+        const auto first = static_cast<std::uint32_t>(positions_.size());
+        const auto add_vertex = [&](std::uint32_t vertex, const Vec3& normal) {
+            const Vec3d& p = prop.mesh.positions[vertex];
+            add_position(is_finite(p) ? frame_.to_unit(prop.pose(p)) : Vec3(0.0f),
+                         Vec3(prop.pose.rotation * Vec3d(normal)),
+                         shape.painted ? brightness(prop.mesh.vertex_colors[vertex]) : 1.0f);
+        };
+        if (!shape.own_normals) {
+            for (std::uint32_t vertex = 0; vertex < prop.mesh.positions.size(); ++vertex)
+                add_vertex(vertex, Vec3(0.0f));
+            add_triangles(prop.triangles, first);
+            return;
+        }
+        // Normals differ from corner to corner, so each has a vertex of its own.
+        const auto normals = corner_normals(prop.mesh, prop.triangles);
+        for (std::size_t f = 0; f < prop.triangles.size(); ++f) {
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                add_vertex(prop.triangles[f][corner], normals[f][corner]);
+            const auto at = static_cast<std::uint32_t>(3 * f);
+            triangles_.push_back({first + at, first + at + 1, first + at + 2});
+        }
     }
 
     void add_field(const Prop& prop, const AnyField& field) {
@@ -57,7 +67,7 @@ class Collector {
             voxel);
         const auto first = static_cast<std::uint32_t>(positions_.size());
         for (const Vec3d& p : mesh.positions)
-            add_position(Vec3(p));
+            add_position(Vec3(p), Vec3(0.0f), 1.0f);
         add_triangles(triangulate(mesh).triangles, first);
     }
 
@@ -67,7 +77,8 @@ class Collector {
         constexpr float horizon = 100.0f; // as far as a field without an end is traced
         for (const Vec2 corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
             add_position(plane.offset * basis.normal +
-                         horizon * (corner.x * basis.tangent + corner.y * basis.bitangent));
+                             horizon * (corner.x * basis.tangent + corner.y * basis.bitangent),
+                         Vec3(0.0f), 1.0f);
         add_triangles(std::array{Triangle{0, 1, 2}, Triangle{0, 2, 3}}, first);
     }
 
@@ -81,10 +92,10 @@ class Collector {
     }
 
   private:
-    void add_position(const Vec3& p) {
+    void add_position(const Vec3& p, const Vec3& normal, float painted) {
         positions_.push_back(p);
-        normals_.emplace_back(0.0f);
-        painted_.push_back(1.0f);
+        normals_.push_back(normal);
+        painted_.push_back(painted);
     }
     void add_triangles(std::span<const Triangle> triangles, std::uint32_t first) {
         for (const Triangle& t : triangles)
