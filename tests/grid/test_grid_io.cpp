@@ -117,6 +117,22 @@ TEST_F(GridFile, ALevelSetOfAnotherProgramIsAField) {
     }
 }
 
+TEST_F(GridFile, DistancesInVoxelsAreTakenForWhatTheyAre) {
+    const auto sphere =
+        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
+    scale_values(*sphere, 1.0 / 0.05);
+    write_foreign(sphere, "voxels.vdb", 0);
+    const GridStack stack = read_grids(path("voxels.vdb"));
+    ASSERT_EQ(stack.warnings.size(), 1u);
+    EXPECT_NE(stack.warnings.front().find("change by 20 a unit"), std::string::npos)
+        << stack.warnings.front();
+    const LevelStack field(stack);
+    EXPECT_NEAR(field.map(stack.frame.to_unit({7.1, 6, 7})) * stack.frame.diagonal, 0.1, 0.01);
+    write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),
+                  "right.vdb", 0);
+    EXPECT_TRUE(read_grids(path("right.vdb")).warnings.empty());
+}
+
 TEST_F(GridFile, ABandSetVoxelByVoxelHasAnInside) {
     // As a script would: nothing tells that what is deep within is not outside.
     const auto band = openvdb::FloatGrid::create(0.15f);

@@ -161,6 +161,51 @@ bool has_inside(const FloatGrid& grid) {
     return false;
 }
 
+/// How much values change along a unit of length where they are near 0: 1 for distances in scene units. The median of some
+/// thousand voxels.
+double slope_of(const FloatGrid& grid, double voxel) {
+    constexpr std::size_t enough = 4096;
+    std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
+    grid.tree().getNodes(leaves);
+    const std::size_t stride = leaves.size() / enough + 1;
+    const auto reader = grid.getConstAccessor();
+    std::vector<double> slopes;
+    for (std::size_t l = 0; l < leaves.size(); l += stride)
+        for (auto value = leaves[l]->cbeginValueOn(); value; ++value) {
+            const openvdb::Coord at = value.getCoord();
+            if ((*value < 0.0f) == (reader.getValue(at.offsetBy(1, 0, 0)) < 0.0f) &&
+                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 1, 0)) < 0.0f) &&
+                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 0, 1)) < 0.0f))
+                continue;
+            Vec3d gradient;
+            for (int axis = 0; axis < 3; ++axis) {
+                openvdb::Coord step;
+                step[axis] = 1;
+                gradient[axis] = double(reader.getValue(at + step)) - double(reader.getValue(at - step));
+            }
+            slopes.push_back(0.5 * glm::length(gradient) / voxel);
+            break;
+        }
+    if (slopes.empty())
+        return 1.0;
+    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+    std::nth_element(slopes.begin(), middle, slopes.end());
+    return *middle;
+}
+
+/// Distances in another unit, such as voxels, are brought to that of the scene.
+void scale_to_scene(FloatGrid& grid, std::vector<std::string>& warnings) {
+    const double slope = slope_of(grid, grid.voxelSize().x());
+    constexpr double alike = 1.3; // smoothing changes less
+    if (!(slope > 0.0) || (slope < alike && slope > 1.0 / alike))
+        return;
+    scale_values(grid, 1.0 / slope);
+    warnings.push_back(
+        fmt::format("grid '{}' has values that change by {:.3g} a unit of length: they are taken for "
+                    "distances in another unit, and divided by that",
+                    grid.getName(), slope));
+}
+
 GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
     auto chosen = std::find_if(grids.begin(), grids.end(),
                                [](const auto& g) { return g->getGridClass() == openvdb::GRID_LEVEL_SET; });
@@ -176,6 +221,8 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     // Programs that set voxels one by one leave the inside beyond the band as it was: outside.
     openvdb::tools::signedFloodFill((*chosen)->tree());
     (*chosen)->setGridClass(openvdb::GRID_LEVEL_SET);
+    std::vector<std::string> warnings;
+    scale_to_scene(**chosen, warnings);
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
     const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
     Box box;
@@ -186,6 +233,7 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
     stack.levels.push_back(level_of(*chosen, stack, file));
+    stack.warnings = std::move(warnings);
     return stack;
 }
 
