@@ -113,8 +113,12 @@ void run(const Options& options) {
 
     std::vector<std::string> warnings = staged.warnings;
     if (covered == 0)
-        warnings.push_back(
-            "the picture is empty: the camera does not see the subject; leave out --eye and --look-at");
+        warnings.push_back("the picture is empty: the camera does not see the subject; leave out its eye and "
+                           "what it looks at");
+    const Subject& subject = staged.subject;
+    if (!two_sided(subject.field) && subject.field.map(subject.frame.to_unit(start.eye())) < 0.0f)
+        warnings.push_back("the camera is inside a solid, where all is black: move it, or say sign = "
+                           "\"unsigned\" of a room");
     print_warnings(warnings, options.common);
     if (!options.common.json && !options.common.quiet) {
         const std::string drawn =

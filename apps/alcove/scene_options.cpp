@@ -118,8 +118,8 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
     if (mesh) {
         mesh->voxel = parse_voxel(request.grid.voxel);
         mesh->sign = parse_sign(request.grid.sign);
-        mesh->own_normals = request.own_normals;
-    } else if (request.grid.voxel != "auto" || request.grid.sign != "auto" || !request.own_normals) {
+        mesh->own_normals = request.own_normals.value_or(true);
+    } else if (request.grid.voxel != "auto" || request.grid.sign != "auto" || request.own_normals) {
         throw UsageError(fmt::format("--voxel, --sign and --normals are for meshes: {} is a {}",
                                      request.input,
                                      described ? "scene, which has them in its objects" : "grid already"));
@@ -127,7 +127,7 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
     if (request.no_ground)
         scene.ground.reset();
     if (request.no_shadow)
-        scene.light.shadow.reset();
+        scene.light.casts_shadow = false;
     if (!request.size.empty())
         scene.size = parse_size(request.size);
     check_size(scene.size, passes);

@@ -19,7 +19,8 @@ struct SceneRequest {
     std::string size, eye, look_at, up;              ///< empty: those of the scene
     std::optional<double> fov{};
     std::optional<int> pixel_samples{};
-    bool no_ground = false, no_shadow = false, own_normals = true;
+    bool no_ground = false, no_shadow = false;
+    std::optional<bool> own_normals{};
 };
 
 /// Adds the input, and the options of all these.

@@ -50,5 +50,6 @@ set(alcove_internal_headers
     scene/pose.h
     scene/prop_fields.h
     scene/props.h
+    scene/support.h
     scene/toml_table.h
     scene/triangles.h)

@@ -33,16 +33,15 @@ Length parse_length(const std::string& text) {
 
 float Length::to_unit(double diagonal, float voxel) const {
     if (unit == Unit::voxels && voxel <= 0.0f)
-        throw InputError(
-            "a length in vx needs the voxel itself to be set: give --voxel as a length or a percentage");
+        throw InputError("a length in vx needs a voxel of known size: set the voxel of a mesh as a length or "
+                         "a percentage");
     const double length = unit == Unit::scene      ? value / diagonal
                           : unit == Unit::diagonal ? value
                                                    : value * voxel;
     if (length < 1e-12 || (length > 1e6 && std::isfinite(length)))
-        throw InputError(
-            fmt::format("a length of {:.3g} is {:.3g} times the diagonal of the mesh ({:.3g}): write it "
-                        "in the mesh's units, or as a percentage of the diagonal",
-                        length * diagonal, length, diagonal));
+        throw InputError(fmt::format("a length of {:.3g} is {:.3g} times the diagonal ({:.3g}): write it in "
+                                     "scene units, or as a percentage of the diagonal",
+                                     length * diagonal, length, diagonal));
     return static_cast<float>(length);
 }
 

@@ -38,6 +38,26 @@ PointCloud random_points(float extent, std::size_t count) {
     return cloud;
 }
 
+TEST(LevelStack, KnowsTheInsideAsFarAsTheOutsideWhereItsLevelsDo) {
+    VoxelizeOptions options;
+    options.grid.voxel = 1.0f / 128.0f;
+    options.grid.radius = 0.25f;
+    const Mesh ball = test::sphere_mesh(5); // its diagonal is √12 radii
+    const auto triangles = triangulate(ball).triangles;
+    const LevelStack thin(voxelize(ball, triangles, options));
+    options.grid.inner_band = options.grid.outer_band;
+    const LevelStack thick(voxelize(ball, triangles, options));
+    const float radius = 1.0f / std::sqrt(12.0f);
+    for (const float depth : {0.005f, 0.02f, 0.06f, 0.12f}) {
+        const Vec3 p = (radius - depth) * glm::normalize(Vec3(1.0f, 2.0f, -0.5f));
+        EXPECT_NEAR(thick.map(p), -depth, 0.03f * depth + 1e-4f);
+        float batched = 0.0f;
+        thick.map({&p.x, &p.y, &p.z, 1}, any_reach, &batched);
+        EXPECT_NEAR(batched, thick.map(p), 1e-6f);
+        EXPECT_GE(thin.map(p), -5.0f / 128.0f - 1e-6f); // what fills its inside
+    }
+}
+
 TEST(LevelStack, SimdSamplerEqualsItsScalarTwin) {
     const LevelStack field(stack_of(test::sphere_mesh(4), 1.0f / 64.0f, 0.3f));
     const PointCloud cloud =

@@ -63,7 +63,7 @@ TEST(Passes, APassIsTheSameWhateverElseIsAsked) {
     const Subject subject = ball_and_ring();
     const Camera camera = camera_at({0.1f, 0.5f, 1.1f}, {0.05f, -0.05f, 0.0f}, {80, 60});
     RenderOptions options{
-        .samples = 2, .method = &find_method("classic"), .shadow = SoftShadow{}, .passes = everything()};
+        .samples = 2, .method = &find_method("classic"), .casts_shadow = true, .passes = everything()};
     const Image all = render(subject, camera, options);
     for (const PassInfo& info : all_passes) {
         options.passes = info.pass;
@@ -86,6 +86,18 @@ TEST(Passes, APassIsTheSameWhateverElseIsAsked) {
         expect_same(Pass::position, one.position, all.position);
         expect_same(Pass::object, one.object, all.object);
     }
+}
+
+TEST(Passes, LightThatCastsNoShadowsCastsNoneBesideTheirPass) {
+    const Subject subject = ball_and_ring();
+    const Camera camera = camera_at({0.1f, 0.5f, 1.1f}, {0.05f, -0.05f, 0.0f}, {80, 60});
+    RenderOptions options{.samples = 1, .passes = everything()};
+    options.lighting.toward_key = glm::normalize(Vec3(1, 1, 0.2f));
+    const Image all = render(subject, camera, options);
+    options.passes = Pass::beauty;
+    EXPECT_EQ(all.color, render(subject, camera, options).color);
+    options.casts_shadow = true;
+    EXPECT_NE(all.color, render(subject, camera, options).color);
 }
 
 TEST(Passes, ConvexEdgesTakeTheirColour) {

@@ -151,9 +151,9 @@ occlusion = 0.75
     EXPECT_EQ(scene.occlusion.use, OcclusionUse::everything);
     EXPECT_EQ(scene.occlusion.far_samples, 4);
     EXPECT_EQ(scene.occlusion.far, 30.0);
-    ASSERT_TRUE(scene.light.shadow);
-    EXPECT_EQ(scene.light.shadow->sharpness, 12.0f);
-    EXPECT_FALSE(scene_from("[sun]\nshadow = false\nsharpness = 2\n").light.shadow);
+    EXPECT_TRUE(scene.light.casts_shadow);
+    EXPECT_EQ(scene.light.shadow.sharpness, 12.0f);
+    EXPECT_FALSE(scene_from("[sun]\nshadow = false\n").light.casts_shadow);
     EXPECT_EQ(scene.light.toward_sun, Vec3d(0, 2, 0));
     EXPECT_EQ(scene.light.sun, Vec3(3, 2, 1));
     EXPECT_EQ(scene.light.sky, Vec3(0.5f));
@@ -182,9 +182,9 @@ TEST(SceneFile, AnUnknownKeyIsAnErrorThatNamesTheNearest) {
     expect_refusal(std::string(ball) + "raduis = 2\n", {":3:", "raduis", "[[object]]", "radius"});
     expect_refusal(std::string(ball) + "file = \"a.ply\"\n", {":3:", "file"});        // of another shape
     expect_refusal("[occlusion]\nmethod = \"classic\"\nrays = 3\n", {":3:", "rays"}); // of another method
-    expect_refusal("[material.clay]\ncolour = 1\n", {":2:", "did you mean color?"});
+    expect_refusal("[material.clay]\ncolour = 1\n", {":2:", "[material.clay]", "did you mean color?"});
     expect_refusal("[[object]]\nshape = \"union\"\npart = [{ shape = \"box\", sise = [1, 1, 1] }]\n",
-                   {":3:", "[[part]]", "size"});
+                   {":3:", "[[object.part]]", "size"});
 }
 
 TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
@@ -203,7 +203,9 @@ TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
     expect_refusal("[occlusion]\ncosine_weighted = 1\n", {":2:", "true or false"});
     expect_refusal("[occlusion]\nfar = 3\n", {":2:", "far_samples"});
     expect_refusal("[occlusion]\nlight = \"all\"\n", {":2:", "ambient", "all"});
-    expect_refusal("[sky]\ncolor = [0, -1, 0]\n", {":2:", "below 0"});
+    expect_refusal("[sky]\ncolor = [0, -1, 0]\n", {":2:", "from 0 to 10000"});
+    expect_refusal("[material.red]\ncolor = 255\n", {":2:", "from 0 to 1"});
+    expect_refusal("[material.red]\ncolor = \"red\"\n", {":2:", "red, green and blue"});
     expect_refusal("[material.a]\nreflection = 2\n", {":2:", "from 0 to 1"});
     expect_refusal("material = [1]\n", {":1:", "table"});
     expect_refusal(std::string(ball) + "material = \"clay\"\n", {":3:", "clay", "add [material.clay]"});
@@ -218,6 +220,9 @@ TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
                    {":4:", "field, mesh"});
     expect_refusal("[[object]]\nshape = \"box\"\nsize = [1, 0, 1]\n", {":3:", "above 0"});
     expect_refusal("[[object]]\nshape = \"union\"\n", {"needs parts"});
+    expect_refusal(
+        "[[object]]\nshape = \"union\"\npart = [{ shape = \"mesh\", file = \"a.ply\", painted = true }]\n",
+        {":3:", "painted", "parts"});
     expect_refusal("[[object]]\nshape = \"union\"\nblend = -1\npart = [{ shape = \"box\" }]\n",
                    {":3:", "0 or more"});
 }

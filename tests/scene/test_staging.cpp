@@ -138,6 +138,37 @@ TEST(Staging, AFieldNearEnoughToAScaledAndMovedSceneIsTheSame) {
     }
 }
 
+TEST(Staging, ABlendStaysInItsBoxHoweverManyPartsItHas) {
+    std::string parts;
+    for (int i = 0; i < 8; ++i)
+        parts += "{ shape = \"box\", size = [2, 1, 2] }, ";
+    const Staged staged =
+        stage(scene_from("object = [{ shape = \"union\", blend = 1, part = [" + parts + "] }]\n"));
+    const Frame& frame = staged.subject.frame;
+    const Box& box = staged.subject.box;
+    for (const double y : {box.min.y, box.max.y})
+        for (double x = -1.0; x <= 1.0; x += 0.25)
+            EXPECT_GE(staged.subject.field.map(frame.to_unit({x, y, 0.3})), -1e-6f);
+}
+
+TEST(Staging, TheGroundIsBelowWhatIsSmallInALargeScene) {
+    const Staged staged = stage(scene_from("object = [{ shape = \"sphere\", radius = 0.01 }, { shape = "
+                                           "\"box\", translate = [0, 2, 0] }]\n[ground]\n"));
+    EXPECT_NEAR(double(staged.subject.grounds[0].plane.map(staged.subject.frame.to_unit({0, 0, 0}))) *
+                    staged.subject.frame.diagonal,
+                0.01, 1e-6);
+}
+
+TEST(Staging, ATurnedBallIsAsLargeAsBefore) {
+    const Staged staged = stage(scene_from("object = [{ shape = \"sphere\", rotate = [45, 35, 0] }]\n"));
+    EXPECT_NEAR(staged.subject.frame.diagonal, std::sqrt(12.0), 1e-12);
+    const Box ring =
+        stage(scene_from("object = [{ shape = \"torus\", ring = 2, tube = 0.5, rotate = [90, 0, 0] }]\n"))
+            .subject.box;
+    EXPECT_NEAR(ring.max.y, 2.5, 1e-12);
+    EXPECT_NEAR(ring.max.z, 0.5, 1e-7);
+}
+
 /// A soft shadow tells distances from the way over its sharpness: where they are cut, open ground is dark.
 TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
     std::filesystem::create_directories(std::filesystem::temp_directory_path() / "alcove_reach");
@@ -159,7 +190,7 @@ TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
         return double(staged.subject.field.map(frame.to_unit({x, 0, 0}))) * frame.diagonal;
     };
     EXPECT_NEAR(distance_at(2.2), 1.2, 0.05); // a third of the diagonal away voxels are coarse
-    scene.light.shadow.reset();
+    scene.light.casts_shadow = false;
     EXPECT_LT(distance_at(1.7), 0.68); // only a bound: no more was asked
     std::filesystem::remove_all(file.parent_path());
 }

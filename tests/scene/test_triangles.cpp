@@ -27,12 +27,15 @@ Drawn draw(const Scene& scene, PassSet passes) {
 /// A coarse ball of few triangles as a file, its vertices black above and white below.
 class BallFile : public testing::Test {
   protected:
-    BallFile() {
-        Mesh mesh = sphere_mesh(2);
+    BallFile() { write("ball.ply", 2); }
+    ~BallFile() override { std::filesystem::remove_all(folder_); }
+
+    void write(const char* name, int level) const {
+        Mesh mesh = sphere_mesh(level);
         for (const Vec3d& p : mesh.positions)
             mesh.vertex_colors.push_back(p.y > 0.0 ? Color{0, 0, 0, 255} : Color{255, 255, 255, 255});
         std::filesystem::create_directories(folder_);
-        std::ofstream ply(folder_ / "ball.ply");
+        std::ofstream ply(folder_ / name);
         ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
             << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar "
                "green\n"
@@ -46,7 +49,6 @@ class BallFile : public testing::Test {
         for (std::size_t f = 0; f < mesh.face_count(); ++f)
             ply << "3 " << mesh.face(f)[0] << " " << mesh.face(f)[1] << " " << mesh.face(f)[2] << "\n";
     }
-    ~BallFile() override { std::filesystem::remove_all(folder_); }
 
     Scene scene(const std::string& more) const {
         return scene_from(
@@ -133,6 +135,58 @@ TEST_F(BallFile, PaintedValuesMultiplyOcclusion) {
     }
     EXPECT_GT(above, 100);
     EXPECT_GT(below, 100);
+}
+
+TEST_F(BallFile, OfAnObjectAreNotTakenForThoseOfOneThatCrossesIt) {
+    // A sphere through the ball: where they meet, each keeps its own normals.
+    const Drawn drawn =
+        draw(scene("normals = \"mesh\"\nvoxel = 0.1\n[[object]]\nshape = \"sphere\"\ncenter = [0.8, 0.6, "
+                   "0.5]\nradius = 0.7\n"),
+             Pass::normal | Pass::position | Pass::object);
+    int seen = 0;
+    for (std::size_t i = 0; i < drawn.image.pixels(); ++i)
+        if (drawn.image.object[i] == 2.0f) {
+            ++seen;
+            const Vec3d out = glm::normalize(Vec3d(drawn.image.position[i]) - Vec3d(0.8, 0.6, 0.5));
+            EXPECT_GT(glm::dot(out, Vec3d(drawn.image.normal[i])), 0.999);
+        }
+    EXPECT_GT(seen, 500);
+}
+
+TEST_F(BallFile, ABlendedCutOfAMeshIsThatOfItsShape) {
+    write("fine.ply", 5);
+    const auto cut = [&](const std::string& ball) {
+        return stage(scene_from("[[object]]\nshape = \"difference\"\nblend = 0.6\n[[object.part]]\n" + ball +
+                                "[[object.part]]\nshape = \"sphere\"\ncenter = [0, 1.2, 0]\nradius = 0.8\n"));
+    };
+    const Staged meshed = cut("shape = \"mesh\"\nfile = \"" + (folder_ / "fine.ply").string() + "\"\n");
+    const Staged exact = cut("shape = \"sphere\"\n");
+    for (double x = -0.9; x < 1.0; x += 0.1)
+        for (double y = -0.9; y < 1.0; y += 0.1) {
+            const Vec3d p(x, y, 0.05);
+            const auto at = [&](const Staged& staged) {
+                return double(staged.subject.field.map(staged.subject.frame.to_unit(p))) *
+                       staged.subject.frame.diagonal;
+            };
+            if (std::fabs(at(exact)) < 0.1) {
+                EXPECT_NEAR(at(meshed), at(exact), 0.015);
+            }
+        }
+}
+
+TEST(TrianglesOfAScene, WhatIsSmallHasThemToo) {
+    const Scene scene = scene_from(R"(
+[occlusion]
+method = "exact"
+[[object]]
+shape = "sphere"
+radius = 0.01
+[[object]]
+shape = "sphere"
+radius = 100
+center = [500, 0, 0]
+)");
+    EXPECT_NE(stage(scene).subject.mesh, nullptr);
 }
 
 /// Exact rays on the triangles of primitives and differences against rays traced through the same fields.

@@ -1,7 +1,8 @@
 /// Union and difference of solids whose seams may be rounded. Cost: one map() of every part.
 ///
 /// The blended distances are bounds, with and without rounding: they change no faster than the way, and are
-/// never more than the distance to the surface they describe.
+/// never more than the distance to the surface they describe, where every part answers distances as far as the width,
+/// outside and, of what is cut or cut away, inside.
 #pragma once
 
 #include "alcove/field/combine.h"

@@ -61,7 +61,8 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
         offset_[axis] = static_cast<float>(-(double(level.origin[axis]) / level.voxel) - low[axis]);
         count *= static_cast<std::size_t>(size_[axis]);
         if (count > std::size_t{1} << 28)
-            throw LimitError("the grid spans more than 268 million bricks of 8³ voxels: use a coarser --voxel");
+            throw LimitError(
+                "the grid spans more than 268 million bricks of 8³ voxels: use a coarser --voxel");
     }
     index_.assign(count, 0);
     const auto slot = [&](const Coord& origin) {

@@ -10,7 +10,8 @@ constexpr std::size_t block = 256;
 
 }
 
-LevelStack::LevelStack(const GridStack& stack) : two_sided_(stack.sign == Sign::sheet) {
+LevelStack::LevelStack(const GridStack& stack)
+    : two_sided_(stack.sign == Sign::sheet), knows_inside_(!two_sided_ && stack.knows_inside()) {
     auto levels = std::make_shared<std::vector<Bricks>>();
     for (const LevelSet& level : stack.levels)
         levels->emplace_back(level, static_cast<float>(stack.value_unit / stack.frame.diagonal));
@@ -38,16 +39,17 @@ std::size_t LevelStack::level_for(float reach) const {
 
 float LevelStack::map(const Vec3& p) const {
     float distance = levels_->front().map(p), nearest = levels_->front().usable();
-    if (distance < nearest)
+    if (!cut(distance, nearest))
         return distance;
     if (const float outside = levels_->front().bounds().map(p); outside >= reach())
         return outside;
     // What a finer level could not reach is no nearer than that: behind a sheet the coarser one does not
     // know.
     for (std::size_t level = 1; level < levels_->size(); ++level) {
-        distance = std::max((*levels_)[level].map(p), nearest);
+        const float coarser = (*levels_)[level].map(p);
+        distance = distance > 0.0f ? std::max(coarser, nearest) : std::min(coarser, -nearest);
         nearest = (*levels_)[level].usable();
-        if (distance < nearest)
+        if (!cut(distance, nearest))
             break;
     }
     return distance;
@@ -70,7 +72,7 @@ void LevelStack::escalate(const Points& points, float* distances) const {
     std::array<std::uint16_t, block> far; // the points that the level before could not answer
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i)
-        if (distances[i] >= levels_->front().usable()) {
+        if (cut(distances[i], levels_->front().usable())) {
             const float outside = levels_->front().bounds().map(points[i]);
             if (outside >= reach())
                 distances[i] = outside;
@@ -88,8 +90,9 @@ void LevelStack::escalate(const Points& points, float* distances) const {
         sample_bricks(bricks.view(), {x.data(), y.data(), z.data(), count}, values.data());
         std::size_t left = 0;
         for (std::size_t k = 0; k < count; ++k) {
-            distances[far[k]] = std::max(values[k], nearest);
-            if (values[k] >= bricks.usable())
+            float& distance = distances[far[k]];
+            distance = distance > 0.0f ? std::max(values[k], nearest) : std::min(values[k], -nearest);
+            if (cut(values[k], bricks.usable()))
                 far[left++] = far[k];
         }
         count = left;

@@ -9,7 +9,8 @@ namespace alcove {
 
 /// Distances in unit space, trilinear on the finest level whose band holds them: neither saturated values nor
 /// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the
-/// answer is a lower bound: the end of that band, or the distance to the box around the surface. A probe known to be no further than `reach`
+/// answer is a lower bound: the end of that band, or the distance to the box around the surface. Inside, all this holds
+/// where every level knows the inside as far as the outside; else the end of the finest band is the answer. A probe known to be no further than `reach`
 /// from the surface reads the one level made for that height, its voxel at most half of it.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
@@ -33,10 +34,14 @@ class LevelStack {
 
   private:
     std::size_t level_for(float reach) const;
+    /// Whether a value of a level is only the end of its band.
+    bool cut(float distance, float usable) const {
+        return distance >= usable || (knows_inside_ && distance <= -usable);
+    }
     void escalate(const Points& points, float* distances) const;
 
     std::shared_ptr<const std::vector<Bricks>> levels_;
-    bool two_sided_;
+    bool two_sided_, knows_inside_;
 };
 
 }

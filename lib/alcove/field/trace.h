@@ -82,7 +82,9 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
             ++rays.steps[i];
             if (relaxes && relaxation[i] > 1.0f && stepped[i] > options.shortest_step &&
                 previous[i] + d < stepped[i]) {
-                rays.travelled[i] -= stepped[i] - std::max(previous[i], options.shortest_step);
+                const float safe = std::max(previous[i], options.shortest_step);
+                rays.travelled[i] -= stepped[i] - safe;
+                stepped[i] = safe;
                 relaxation[i] = 1.0f;
                 active[left++] = i;
                 continue;

@@ -66,18 +66,20 @@ class Header {
 constexpr std::int64_t magic = 0x56444220;    // " BDV"
 constexpr std::uint32_t oldest_version = 222; // of files with a UUID and compression by grid, since 2013
 
-void check_grid(Header& header) {
+void check_grid(Header& header, bool has_offsets) {
     header.text(); // its name
-    const std::string type = header.text();
+    header.text(); // its type
     header.text(); // its parent, where it is an instance of one
     const auto begin = header.number<std::int64_t>();
     header.number<std::int64_t>(); // where its values begin
     const auto end = header.number<std::int64_t>();
-    header.go_to(begin);
+    if (has_offsets)
+        header.go_to(begin);
     header.number<std::uint32_t>(); // compression
     header.metadata();
     header.text(); // the type of its transform
-    header.go_to(end);
+    if (has_offsets)
+        header.go_to(end);
 }
 
 }
@@ -94,7 +96,7 @@ void check_vdb_lengths(const std::filesystem::path& file) {
     const auto grids = header.number<std::int32_t>();
     // Without offsets the second grid is behind the tree of the first.
     for (std::int32_t i = 0; i < (has_offsets ? grids : std::min(grids, 1)); ++i)
-        check_grid(header);
+        check_grid(header, has_offsets);
 }
 
 }

@@ -70,6 +70,10 @@ RayPrecision::RayPrecision(float resolution)
 CameraRays::CameraRays(const Subject& subject, const Camera& camera, int samples)
     : subject_(subject), field_(subject.field), camera_(camera), frame_(subject.frame),
       precision_(resolution(subject.field)), two_sided_(two_sided(subject.field)) {
+    // What is small beside something coarse is not stepped over.
+    for (const Part& part : subject.parts)
+        precision_.shortest_step =
+            std::min(precision_.shortest_step, std::max(0.1f * resolution(part.field), 1e-4f));
     eye_ = (camera.eye() - frame_.center) / frame_.diagonal;
     low_ = (subject.box.min - frame_.center) / frame_.diagonal - Vec3d(precision_.slack);
     high_ = (subject.box.max - frame_.center) / frame_.diagonal + Vec3d(precision_.slack);
@@ -177,7 +181,7 @@ void CameraRays::flush(Batch& rays, Hits& hits) const {
     const std::size_t count = rays.count;
     meet(rays, hits);
     rays.count = 0;
-    if (subject_.parts.size() > 1)
+    if (two_sided_ && subject_.parts.size() > 1)
         name_parts({owner.data(), count}, hits);
 }
 
@@ -204,16 +208,51 @@ void CameraRays::name_parts(std::span<const std::size_t> places_in_hits, Hits& h
 
 void CameraRays::meet(Batch& rays, Hits& hits) const {
     if (!two_sided_) {
-        const Batch met = traced(rays, hits);
-        const Gradients gradient = differences(places(met), precision_.difference);
+        Batch met = traced(rays, hits);
+        if (subject_.parts.size() > 1) {
+            meet_parts(met, hits);
+            return;
+        }
+        const Gradients gradient = differences(field_, places(met), precision_.difference);
         for (std::size_t i = 0; i < met.count; ++i)
-            set(met, i, gradient[i], hits);
+            set(met, i, gradient[i], 1, hits);
         return;
     }
     // More jumps than the two of a thin wall are only met where faces cross; the last is taken for a surface.
     constexpr int attempts = 6;
     for (int attempt = 1; attempt <= attempts && rays.count > 0; ++attempt)
         rays = meet_two_sided(rays, attempt == attempts, hits);
+}
+
+/// Sets what the rays meet, each as the part whose surface is nearest has it: another may be coarser.
+void CameraRays::meet_parts(Batch& met, Hits& hits) const {
+    const std::size_t parts = subject_.parts.size();
+    const Places all = places(met);
+    std::array<std::size_t, RayBatch::capacity> nearest_part{};
+    Values nearest, distance;
+    nearest.fill(std::numeric_limits<float>::infinity());
+    for (std::size_t part = 0; part < parts; ++part) {
+        map_batch(subject_.parts[part].field, all.points(), any_reach, distance.data());
+        for (std::size_t i = 0; i < met.count; ++i)
+            if (std::fabs(distance[i]) < std::fabs(nearest[i])) {
+                nearest[i] = distance[i];
+                nearest_part[i] = part;
+            }
+    }
+    for (std::size_t part = 0; part < parts; ++part) {
+        Places own;
+        std::array<std::size_t, RayBatch::capacity> index;
+        for (std::size_t i = 0; i < met.count; ++i)
+            if (nearest_part[i] == part) {
+                met.travelled[i] += nearest[i];
+                index[own.count] = i;
+                own.add(met.place(i));
+            }
+        const AnyField& field = subject_.parts[part].field;
+        const Gradients gradient = differences(field, own, RayPrecision(resolution(field)).difference);
+        for (std::size_t k = 0; k < own.count; ++k)
+            set(met, index[k], gradient[k], static_cast<ObjectId>(part + 1), hits);
+    }
 }
 
 /// Sets what the rays meet, and returns those to trace further: from behind a sheet, distances jump before
@@ -223,13 +262,13 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
     const Batch met = traced(rays, hits);
     const float voxel = precision_.voxel, near = nearness * voxel;
     const Values missing = distances(places(met));
-    const Gradients slope = differences(places(met), near);
+    const Gradients slope = differences(field_, places(met), near);
     // The cells of a face hold its distances; differences around a place on it would reach behind them.
     Places in_front;
     for (std::size_t i = 0; i < met.count; ++i)
         in_front.add(met.place(i) + precision_.difference * normalized(slope[i]));
     const Values distance = distances(in_front);
-    const Gradients gradient = differences(in_front, precision_.difference);
+    const Gradients gradient = differences(field_, in_front, precision_.difference);
 
     Batch further;
     for (std::size_t i = 0; i < met.count; ++i) {
@@ -247,7 +286,7 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
         const bool behind = (smooth ? glm::dot(slope[i], met.direction(i)) : along) > 0.0f;
         const ObjectId so_far = hits.objects[met.owner[i]];
         if (so_far != 1 || (!doubtful && behind))
-            set(met, i, behind ? -normal : normal, hits);
+            set(met, i, behind ? -normal : normal, 1, hits);
         if (doubtful) {
             const float end = start + widest_jump * voxel / std::max(std::fabs(along), 0.1f);
             further.add(met, i, start, end - far_);
@@ -294,10 +333,11 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
     return met;
 }
 
-void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, Hits& hits) const {
+void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, ObjectId object,
+                     Hits& hits) const {
     const Vec3 direction = rays.direction(i);
     hits.surfels[rays.owner[i]] = {rays.place(i), facing(gradient, direction)};
-    hits.objects[rays.owner[i]] = 1;
+    hits.objects[rays.owner[i]] = object;
     const double length = (rays.before[i] + static_cast<double>(rays.travelled[i])) * frame_.diagonal;
     hits.depths[rays.owner[i]] = static_cast<float>(length * glm::dot(Vec3d(direction), camera_.forward()));
 }
@@ -316,7 +356,7 @@ CameraRays::Values CameraRays::distances(const Places& places) const {
 }
 
 /// Differences of the field along the axes, over twice h.
-CameraRays::Gradients CameraRays::differences(const Places& places, float h) const {
+CameraRays::Gradients CameraRays::differences(const AnyField& field, const Places& places, float h) {
     Gradients gradient;
     Values above, below;
     for (int axis = 0; axis < 3; ++axis) {
@@ -325,7 +365,7 @@ CameraRays::Gradients CameraRays::differences(const Places& places, float h) con
             Values& coordinate = axis == 0 ? moved.x : axis == 1 ? moved.y : moved.z;
             for (std::size_t i = 0; i < places.count; ++i)
                 coordinate[i] += shift;
-            map_batch(field_, moved.points(), 2.0f * h, values);
+            map_batch(field, moved.points(), 2.0f * h, values);
         };
         probe(h, above.data());
         probe(-h, below.data());

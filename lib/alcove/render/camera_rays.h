@@ -118,11 +118,12 @@ class CameraRays {
     void name_parts(std::span<const std::size_t> places, Hits& hits) const;
     Batch traced(Batch& rays, Hits& hits) const;
     void meet(Batch& rays, Hits& hits) const;
+    void meet_parts(Batch& met, Hits& hits) const;
     Batch meet_two_sided(Batch& rays, bool last, Hits& hits) const;
     static Places places(const Batch& rays, float ahead = 0.0f);
     Values distances(const Places& places) const;
-    Gradients differences(const Places& places, float h) const;
-    void set(const Batch& rays, std::size_t i, const Vec3& gradient, Hits& hits) const;
+    static Gradients differences(const AnyField& field, const Places& places, float h);
+    void set(const Batch& rays, std::size_t i, const Vec3& gradient, ObjectId object, Hits& hits) const;
 
     const Subject& subject_;
     const AnyField& field_;

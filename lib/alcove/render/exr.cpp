@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
 #include <cstring>
 #include <deque>
 
@@ -44,6 +45,8 @@ Imath::M44f row_vectors(const glm::dmat4& m) {
     return result;
 }
 
+constexpr float largest_half = 65504.0f;
+
 /// What a file is written from, channel by channel.
 class Channels {
   public:
@@ -59,7 +62,7 @@ class Channels {
         }
         auto& halves = halves_.emplace_back(pixels_);
         for (std::size_t i = 0; i < pixels_; ++i)
-            halves[i] = values[i * step];
+            halves[i] = std::clamp(values[i * step], -largest_half, largest_half);
         insert(names, Imf::HALF, halves.data(), sizeof(Imath::half));
     }
     const Imf::FrameBuffer& buffer() const { return buffer_; }

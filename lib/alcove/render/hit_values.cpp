@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace alcove {
 namespace {
@@ -29,25 +30,22 @@ std::vector<float> bake_by_distance(std::span<const Surfel> surfels, const Occlu
                                     const Vec3d& eye, const RenderOptions& options,
                                     const Progress& progress) {
     const int near_samples = parameter(*options.method, options.settings, "samples");
-    const auto samples_of = [&](const Surfel& surfel) {
-        return samples_at(static_cast<float>(glm::length(Vec3d(surfel.position) - eye)), near_samples,
-                          *options.fewer);
-    };
+    std::map<int, std::vector<std::size_t>> places;
+    for (std::size_t i = 0; i < surfels.size(); ++i)
+        if (surfels[i].has_normal())
+            places[samples_at(static_cast<float>(glm::length(Vec3d(surfels[i].position) - eye)), near_samples,
+                              *options.fewer)]
+                .push_back(i);
     std::vector<float> ao(surfels.size(), 1.0f);
-    const auto [fewest, most] = std::minmax(near_samples, options.fewer->far_samples);
-    for (int samples = fewest; samples <= most; ++samples) {
-        std::vector<Surfel> chosen;
-        std::vector<std::size_t> places;
-        for (std::size_t i = 0; i < surfels.size(); ++i)
-            if (surfels[i].has_normal() && samples_of(surfels[i]) == samples) {
-                chosen.push_back(surfels[i]);
-                places.push_back(i);
-            }
+    for (const auto& [samples, chosen] : places) {
+        std::vector<Surfel> some;
+        for (const std::size_t i : chosen)
+            some.push_back(surfels[i]);
         const ChannelValues baked =
-            bake_channels(chosen, surroundings, *options.method, with_samples(options.settings, samples),
+            bake_channels(some, surroundings, *options.method, with_samples(options.settings, samples),
                           Channel::ao, progress);
-        for (std::size_t k = 0; k < places.size(); ++k)
-            ao[places[k]] = baked[Channel::ao][k];
+        for (std::size_t k = 0; k < chosen.size(); ++k)
+            ao[chosen[k]] = baked[Channel::ao][k];
     }
     return ao;
 }
@@ -77,9 +75,9 @@ HitValues values_of(const Hits& hits, const Subject& subject, const Occluders& s
         values.convexity = std::move(bake_channels(hits.surfels, surroundings, find_method("classic"),
                                                    settings, Channel::convexity)[Channel::convexity]);
     }
-    if (options.passes.has(Pass::shadow) || (beauty && options.shadow))
-        values.shadow = soft_shadows(hits.surfels, surroundings.field(), options.lighting.toward_key,
-                                     options.shadow.value_or(SoftShadow{}));
+    if (options.passes.has(Pass::shadow) || (beauty && options.casts_shadow))
+        values.shadow =
+            soft_shadows(hits.surfels, surroundings.field(), options.lighting.toward_key, options.shadow);
     return values;
 }
 

@@ -11,7 +11,8 @@ namespace alcove {
 
 /// A method behind a function pointer, as its struct describes itself.
 struct ImageMethod : MethodInfo {
-    /// Visibility of every pixel, row after row from the top left, in [0, 1]; 1 where nothing is seen.
+    /// Visibility of every pixel at its centre, row after row from the top left, in [0, 1]; anything where nothing is
+    /// seen.
     std::vector<float> (*occlusion)(const Subject& subject, const Camera& camera, const Settings& settings);
 };
 

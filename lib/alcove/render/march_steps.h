@@ -13,9 +13,9 @@ namespace alcove {
 
 ///     1 - steps/(max_steps - 1)
 ///
-/// of plain sphere tracing to 1/5000 of the diagonal, or for an exact field as near as the scene of the documents, 0.001 of
-/// a diagonal of 5.73. Source: A. Zucconi, "Volumetric Rendering: Ambient Occlusion". Thread-safe. Cost: up to max_steps
-/// map() calls a pixel, which would trace the picture as well.
+/// of plain sphere tracing to a twentieth of a voxel, or for exact fields to 1/5000 of the diagonal, which is 0.001 in the
+/// scene of the documents. Source: A. Zucconi, "Volumetric Rendering: Ambient Occlusion". Thread-safe. Cost: up to
+/// max_steps map() calls a pixel, which would trace the picture as well.
 struct MarchSteps {
     float radius = 0.0f; ///< has no meaning here
     int max_steps = 128; ///< >= 2

@@ -5,6 +5,7 @@
 #include "alcove/render/snap.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace alcove {
 namespace {
@@ -65,7 +66,8 @@ class Resolver {
             return all.empty() ? missing : all[s];
         };
         Vec3 color(0.0f);
-        float alpha = 0.0f, ao = 0.0f, convexity = 0.0f, shadow = 0.0f, steps = 0.0f, depth = far_depth;
+        float alpha = 0.0f, ao = 0.0f, convexity = 0.0f, shadow = 0.0f, steps = 0.0f;
+        float depth = std::numeric_limits<float>::infinity();
         std::size_t nearest = 0;
         for (std::size_t s = pixel * samples; s < (pixel + 1) * samples; ++s) {
             steps += value(hits.steps, s, 0.0f);
@@ -78,13 +80,13 @@ class Resolver {
             const Place place{.normal = surfel.normal,
                               .to_eye = glm::normalize(Vec3(eye_ - Vec3d(surfel.position))),
                               .ao = value(values.ao, s, 1.0f),
-                              .shadow = value(values.shadow, s, 1.0f),
+                              .shadow = options_.casts_shadow ? value(values.shadow, s, 1.0f) : 1.0f,
                               .convexity = value(values.convexity, s, 0.5f),
                               .painted = value(hits.painted, s, 1.0f)};
             alpha += coverage;
             ao += coverage * place.ao;
             convexity += coverage * place.convexity;
-            shadow += coverage * place.shadow;
+            shadow += coverage * value(values.shadow, s, 1.0f);
             if (image_.passes.has(Pass::beauty))
                 color += coverage * shade(options_.lighting, material_of(subject_, object), place);
             if (hits.depths[s] < depth) {
@@ -103,7 +105,7 @@ class Resolver {
         set(Pass::convexity, image_.convexity, share * convexity);
         set(Pass::shadow, image_.shadow, share * shadow);
         set(Pass::steps, image_.steps, share * steps);
-        if (depth >= far_depth)
+        if (!(depth < std::numeric_limits<float>::infinity()))
             return;
         const Surfel& surfel = hits.surfels[nearest];
         set(Pass::depth, image_.depth, depth);

@@ -31,7 +31,8 @@ struct RenderOptions {
     /// Of a method that has a parameter `samples`, which is that of the settings at the eye.
     std::optional<FewerSamples> fewer{};
     Lighting lighting{};
-    std::optional<SoftShadow> shadow{}; ///< of the key light; none: it arrives everywhere
+    SoftShadow shadow{};              ///< of the key light
+    bool casts_shadow = false;        ///< else it arrives everywhere, whatever the shadow pass shows
     PassSet passes = standard_passes; ///< what the image is to have; what none of them needs is not computed
 };
 

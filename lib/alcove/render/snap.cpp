@@ -19,34 +19,58 @@ class Snapper {
   public:
     Snapper(const Subject& subject, const Camera& camera, Hits& hits)
         : subject_(subject), camera_(camera), hits_(hits),
-          eye_((camera.eye() - subject.frame.center) / subject.frame.diagonal),
-          reach_(std::max(3.0f * resolution(subject.field), 1e-3f)) {}
+          eye_((camera.eye() - subject.frame.center) / subject.frame.diagonal) {
+        const auto reach_of = [](const AnyField& field) { return std::max(3.0f * resolution(field), 1e-3f); };
+        if (subject.parts.empty())
+            reaches_.push_back(reach_of(subject.field));
+        for (const Part& part : subject.parts)
+            reaches_.push_back(reach_of(part.field));
+    }
 
     void add(std::size_t sample) {
         const Vec3 direction(glm::normalize(Vec3d(hits_.surfels[sample].position) - eye_));
         owner_[rays_.count] = sample;
-        rays_.push_back({hits_.surfels[sample].position - reach_ * direction, direction}, 0.0f);
+        rays_.push_back({hits_.surfels[sample].position - reach(sample) * direction, direction}, 0.0f);
         if (rays_.count == RayBatch::capacity)
             flush();
     }
 
     void flush() {
-        const SubjectMesh& mesh = *subject_.mesh;
-        mesh.surface.find_nearest(rays_, 2.0f * reach_, places_);
-        for (std::size_t i = 0; i < rays_.count; ++i)
-            if (rays_.hit[i])
-                move(owner_[i], i);
+        // What is met first may be of another object, which crosses this one.
+        constexpr int attempts = 4;
+        for (int attempt = 0; attempt < attempts && rays_.count > 0; ++attempt) {
+            float far = 0.0f;
+            for (std::size_t i = 0; i < rays_.count; ++i)
+                far = std::max(far, 2.0f * reach(owner_[i]));
+            subject_.mesh->surface.find_nearest(rays_, far, places_);
+            RayBatch left;
+            for (std::size_t i = 0; i < rays_.count; ++i) {
+                if (!rays_.hit[i] || rays_.travelled[i] > 2.0f * reach(owner_[i]))
+                    continue;
+                if (subject_.mesh->objects[places_[i].vertices[0]] == hits_.objects[owner_[i]]) {
+                    move(owner_[i], i);
+                    continue;
+                }
+                owner_[left.count] = owner_[i];
+                left.push_back(
+                    {{rays_.x[i], rays_.y[i], rays_.z[i]}, {rays_.dx[i], rays_.dy[i], rays_.dz[i]}},
+                    rays_.travelled[i] + 1e-5f);
+            }
+            rays_ = left;
+        }
         rays_.count = 0;
     }
 
   private:
+    float reach(std::size_t sample) const { return reaches_[hits_.objects[sample] - 1u]; }
+
     void move(std::size_t sample, std::size_t i) {
         Surfel& surfel = hits_.surfels[sample];
         const Vec3 direction(rays_.dx[i], rays_.dy[i], rays_.dz[i]);
-        surfel.position += (rays_.travelled[i] - reach_) * direction;
-        hits_.depths[sample] +=
-            static_cast<float>(double(rays_.travelled[i] - reach_) * subject_.frame.diagonal *
-                               glm::dot(Vec3d(direction), camera_.forward()));
+        const float further = rays_.travelled[i] - reach(sample);
+        surfel.position += further * direction;
+        hits_.depths[sample] += static_cast<float>(double(further) * subject_.frame.diagonal *
+                                                   glm::dot(Vec3d(direction), camera_.forward()));
         const Vec3 normal = interpolated(subject_.mesh->normals, places_[i]);
         if (const float length = glm::length(normal); length > 1e-6f) {
             const float away = glm::dot(normal, direction);
@@ -64,7 +88,7 @@ class Snapper {
     const Camera& camera_;
     Hits& hits_;
     Vec3d eye_;
-    float reach_;
+    std::vector<float> reaches_; // of the parts: how far their triangles may be from their fields
     RayBatch rays_;
     std::array<std::size_t, RayBatch::capacity> owner_;
     std::array<SurfaceHit, RayBatch::capacity> places_;

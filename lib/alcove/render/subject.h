@@ -42,10 +42,6 @@ struct Subject {
     AnyField surroundings() const;
 };
 
-/// What a sample of an image shows: 0 nothing, 1 to the number of parts one of these, above them a ground.
-using ObjectId = std::uint16_t;
-inline constexpr ObjectId no_object = 0;
-
 /// The material of an object that is one.
 const Material& material_of(const Subject& subject, ObjectId object);
 

@@ -33,8 +33,12 @@ std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<cons
                 continue;
             }
             Vec3d sum(0.0);
-            constexpr double least_cosine = 0.766; // of 40 degrees
-            for (std::uint32_t k = begin[vertex]; k < begin[vertex + 1]; ++k) {
+            constexpr double least_cosine = 0.766;    // of 40 degrees
+            constexpr std::uint32_t most_faces = 256; // each is looked at for each
+            const bool many = begin[vertex + 1] - begin[vertex] > most_faces;
+            if (many)
+                sum = faces[f];
+            for (std::uint32_t k = begin[vertex]; !many && k < begin[vertex + 1]; ++k) {
                 const Vec3d& other = faces[around[k]];
                 if (glm::dot(other, faces[f]) >= least_cosine * glm::length(other) * glm::length(faces[f]))
                     sum += other;

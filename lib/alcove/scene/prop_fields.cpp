@@ -65,6 +65,8 @@ void extend_grid(const GridShape& shape, Prop& prop, const Stage& stage, bool in
     if (reach >= wanted && !inside)
         return;
     if (prop.stack.sign == Sign::sheet) {
+        if (reach >= wanted)
+            return;
         prop.warnings.push_back(fmt::format(
             "{} holds distances up to {:.4g}, less than occlusion and shadows ask: beyond them these are "
             "guessed; voxelize its mesh with a larger --radius",
@@ -75,21 +77,26 @@ void extend_grid(const GridShape& shape, Prop& prop, const Stage& stage, bool in
         prop.stack = extend_levels(std::move(prop.stack), std::max(wanted, reach), inside);
     } catch (const InputError& error) {
         throw InputError(shape.file.string() + ": " + error.what());
+    } catch (const LimitError& error) {
+        throw LimitError(shape.file.string() + ": " + error.what());
     }
 }
 
 AnyField composite(const CompositeShape& shape, Prop& prop, const Stage& stage, bool inside) {
     const bool unite = shape.operation == CompositeShape::Operation::unite;
+    const auto width = static_cast<float>(shape.blend * prop.pose.scale / stage.frame.diagonal);
+    // A blend asks for distances as far as its width beyond what is asked of it, and a cut for those of the inside.
+    Stage wider = stage;
+    wider.reach += width;
     std::vector<AnyField> fields;
     for (Prop& part : prop.parts) {
-        const bool cuts = !unite && !fields.empty();
-        fields.push_back(field_of(part, stage, inside || cuts));
+        const bool cuts = !unite && (!fields.empty() || width > 0.0f);
+        fields.push_back(field_of(part, wider, inside || cuts));
         if (two_sided(fields.back()) && (!unite || shape.blend > 0.0))
             throw InputError(
                 fmt::format("{}: is open, and only solids are {}: close it, or say sign = \"signed\"",
                             part.object->name, unite ? "blended" : "cut or cut away"));
     }
-    const auto width = static_cast<float>(shape.blend * prop.pose.scale / stage.frame.diagonal);
     if (!unite)
         return Difference<AnyField>(std::move(fields), width);
     if (width > 0.0f)

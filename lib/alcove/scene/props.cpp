@@ -6,17 +6,14 @@
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/render/subject.h"
+#include "alcove/scene/support.h"
 
-#include <fmt/format.h>
+#include <cmath>
 
 namespace alcove {
 namespace {
 
 Prop fetch(const SceneObject& object, const Pose& outer);
-
-Box around(const Vec3d& center, const Vec3d& half) {
-    return {center - half, center + half};
-}
 
 void add(Box& box, const Box& other) {
     box.add(other.min);
@@ -54,29 +51,24 @@ void fetch_parts(const CompositeShape& shape, Prop& prop) {
                              ": has no end, so it can only be cut away from others: use a large box");
         add(prop.box, box);
     }
-    // Where faces are flush a blend bulges.
-    const double bulge = unite ? 0.25 * shape.blend * prop.pose.scale : 0.0;
+    // Where faces are flush a blend bulges: a quarter of its width for two parts, never more than the width.
+    double bulge = 0.0;
+    for (std::size_t i = 1; unite && i < shape.parts.size() && shape.blend > 0.0; ++i)
+        bulge += std::pow(shape.blend - bulge, 2.0) / (4.0 * shape.blend);
+    bulge *= prop.pose.scale;
     prop.box.min -= bulge;
     prop.box.max += bulge;
 }
 
 Prop fetch(const SceneObject& object, const Pose& outer) {
     Prop prop{&object, outer * pose_of(object.placement)};
-    const auto take = [&](const Box& box) { prop.box = posed(box, prop.pose); };
-    std::visit(
-        Overloaded{[&](const SphereShape& s) { take(around(s.center, Vec3d(s.radius))); },
-                   [&](const BoxShape& s) { take(around(s.center, 0.5 * s.size)); },
-                   [&](const TorusShape& s) {
-                       const double outside = s.ring + s.tube;
-                       take(around(s.center, {outside, s.tube, outside}));
-                   },
-                   [&](const CapsuleShape& s) {
-                       take({glm::min(s.start, s.end) - s.radius, glm::max(s.start, s.end) + s.radius});
-                   },
-                   [](const PlaneShape&) {}, [&](const MeshShape& s) { fetch_mesh(s, prop); },
-                   [&](const GridShape& s) { fetch_grid(s, prop); },
-                   [&](const CompositeShape& s) { fetch_parts(s, prop); }},
-        object.shape);
+    prop.box = box_of(object.shape, prop.pose);
+    if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
+        fetch_mesh(*mesh, prop);
+    if (const auto* grid = std::get_if<GridShape>(&object.shape))
+        fetch_grid(*grid, prop);
+    if (const auto* composite = std::get_if<CompositeShape>(&object.shape))
+        fetch_parts(*composite, prop);
     return prop;
 }
 

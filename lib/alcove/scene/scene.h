@@ -84,9 +84,10 @@ struct SceneGround {
 
 /// What is not given is that of studio_lighting().
 struct SceneLight {
-    std::optional<Vec3d> toward_sun{};               ///< of any length but 0
-    std::optional<Vec3> sun{}, sky{}, bounce{};      ///< Lighting's key, sky and ground
-    std::optional<SoftShadow> shadow = SoftShadow{}; ///< of the sun; none: it shines through
+    std::optional<Vec3d> toward_sun{};          ///< of any length but 0
+    std::optional<Vec3> sun{}, sky{}, bounce{}; ///< Lighting's key, sky and ground
+    SoftShadow shadow{};                        ///< of the sun
+    bool casts_shadow = true;                   ///< else it shines through
 };
 
 struct SceneOcclusion {

@@ -12,6 +12,8 @@
 namespace alcove {
 namespace {
 
+constexpr double brightest = 1e4; // light, of which half precision holds 65,504
+
 using Materials = std::map<std::string, Material>;
 
 /// Puts the value of a key, if there is one, in its place.
@@ -31,9 +33,10 @@ std::optional<float> share(TomlTable& table, std::string_view key) {
 
 Material read_material(TomlTable table) {
     Material material;
-    take(material.color, table.color("color"));
-    take(material.edge_color, table.color("edge_color"));
-    take(material.subsurface, table.color("subsurface"));
+    constexpr double white = 1.0;
+    take(material.color, table.color("color", white));
+    take(material.edge_color, table.color("edge_color", white));
+    take(material.subsurface, table.color("subsurface", brightest));
     take(material.reflection, share(table, "reflection"));
     take(material.occlusion, share(table, "occlusion"));
     table.check_all_read();
@@ -97,6 +100,9 @@ class ObjectReader {
         if (depth == 0)
             object.material = material_of(table, materials_);
         object.shape = read_shape(table, *shape, object.name, depth);
+        for (const char* key : {"normals", "painted"})
+            if (depth > 0 && table.has(key))
+                table.fail(key, "is for meshes by themselves: parts have the normals of their field");
         table.check_all_read();
         return object;
     }
@@ -178,12 +184,22 @@ class ObjectReader {
     std::filesystem::path folder_;
 };
 
+/// \throw InputError at the key unless the method has the parameter and it may have the value.
+void check_parameter(const TomlTable& table, std::string_view key, const MethodInfo& method,
+                     const std::pair<std::string, double>& parameter) {
+    try {
+        check_settings(method, {.parameters = {parameter}});
+    } catch (const InputError& wrong) {
+        table.fail(key, wrong.what(), ": ");
+    }
+}
+
 void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
     if (const std::optional<std::string> name = table.text("method")) {
         try {
             occlusion.choose(*name);
         } catch (const InputError& unknown) {
-            table.fail("method", std::string(": ") + unknown.what());
+            table.fail("method", unknown.what(), ": ");
         }
     }
     take(occlusion.radius, length(table, "radius"));
@@ -197,6 +213,9 @@ void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
                    "needs its other half: write far_samples = 2 and far = 50, a distance from the camera");
     if (occlusion.far_samples && !(occlusion.method && occlusion.method->has_parameter("samples")))
         table.fail("far_samples", "is for methods that take samples, such as classic");
+    if (occlusion.far_samples)
+        check_parameter(table, "far_samples", *occlusion.method,
+                        {"samples", static_cast<double>(*occlusion.far_samples)});
     if (const MethodInfo* method = occlusion.info())
         for (const ParameterInfo& parameter : method->parameters()) {
             const std::optional<double> value =
@@ -204,11 +223,7 @@ void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
             if (!value)
                 continue;
             occlusion.parameters.emplace_back(parameter.name, *value);
-            try {
-                check_settings(*method, {.parameters = {occlusion.parameters.back()}});
-            } catch (const InputError& wrong) {
-                table.fail(parameter.name, std::string(": ") + wrong.what());
-            }
+            check_parameter(table, parameter.name, *method, occlusion.parameters.back());
         }
     table.check_all_read();
 }
@@ -250,17 +265,14 @@ Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
     }
     if (std::optional<TomlTable> sun = table.table("sun")) {
         take(scene.light.toward_sun, sun->direction("direction"));
-        take(scene.light.sun, sun->color("color"));
-        if (sun->flag("shadow") == false)
-            scene.light.shadow.reset();
-        if (const std::optional<double> sharpness = sun->positive("sharpness");
-            sharpness && scene.light.shadow)
-            scene.light.shadow->sharpness = static_cast<float>(*sharpness);
+        take(scene.light.sun, sun->color("color", brightest));
+        take(scene.light.casts_shadow, sun->flag("shadow"));
+        take(scene.light.shadow.sharpness, sun->positive("sharpness"));
         sun->check_all_read();
     }
     if (std::optional<TomlTable> sky = table.table("sky")) {
-        take(scene.light.sky, sky->color("color"));
-        take(scene.light.bounce, sky->color("bounce"));
+        take(scene.light.sky, sky->color("color", brightest));
+        take(scene.light.bounce, sky->color("bounce", brightest));
         sky->check_all_read();
     }
     if (std::optional<TomlTable> occlusion = table.table("occlusion"))

@@ -3,7 +3,10 @@
 #include "alcove/errors.h"
 #include "alcove/field/combine.h"
 #include "alcove/scene/prop_fields.h"
+#include "alcove/scene/support.h"
 #include "alcove/scene/triangles.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,8 +66,8 @@ AnyField united(const std::vector<Part>& parts) {
 
 /// As far as distances are to be right. A soft shadow tells those from less than the way, over its sharpness.
 float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity) {
-    const bool shadow = passes.has(Pass::shadow) || (passes.has(Pass::beauty) && scene.light.shadow);
-    const SoftShadow shape = scene.light.shadow.value_or(SoftShadow{});
+    const bool shadow = passes.has(Pass::shadow) || (passes.has(Pass::beauty) && scene.light.casts_shadow);
+    const SoftShadow& shape = scene.light.shadow;
     return std::max(scene.occlusion.method || convexity ? radius : 0.0f,
                     shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
 }
@@ -88,21 +91,25 @@ bool has_edge_colors(const Scene& scene) {
                        [](const SceneObject& object) { return object.material.edge_color.has_value(); });
 }
 
-/// The height of the lowest point, scene units: of the vertices, or of points of the surface a 64th of the scene apart,
-/// which a round bottom is lower than by a thousandth.
+/// The height of the lowest point, scene units: that of a shape or of vertices, else of points of the surface a 64th of
+/// the prop apart, which a round bottom is lower than by a thousandth of it.
 double lowest(const Prop& prop, const AnyField& field, const Frame& frame, const Vec3d& up) {
+    if (const std::optional<double> height = support(prop.object->shape, prop.pose, -up))
+        return -*height;
     double height = std::numeric_limits<double>::infinity();
     for (const Vec3d& p : prop.mesh.positions)
         if (is_finite(p))
             height = std::min(height, glm::dot(up, prop.pose(p)));
     if (std::isfinite(height))
         return height;
-    for (const Vec3d& p : outline(field, frame).points) {
-        Vec3 q = frame.to_unit(p);
+    const Frame own = frame_of(prop.box);
+    const AnyField in_own = placed(field, frame, own);
+    for (const Vec3d& p : outline(in_own, own).points) {
+        Vec3 q = own.to_unit(p);
         for (int round = 0; round < 3; ++round)
-            q -= field.map(q) * steepest(field, q);
-        if (std::fabs(field.map(q)) < 1e-4f)
-            height = std::min(height, glm::dot(up, frame.to_scene(q)));
+            q -= in_own.map(q) * steepest(in_own, q);
+        if (std::fabs(in_own.map(q)) < 1e-4f)
+            height = std::min(height, glm::dot(up, own.to_scene(q)));
     }
     return height;
 }
@@ -110,6 +117,10 @@ double lowest(const Prop& prop, const AnyField& field, const Frame& frame, const
 }
 
 Staged stage(const Scene& scene, PassSet passes, const Progress& progress) {
+    constexpr std::size_t most_objects = 60000; // numbers of 16 bits
+    if (scene.objects.size() > most_objects)
+        throw InputError(fmt::format("the scene has {} objects, {} at most: make unions of them",
+                                     scene.objects.size(), most_objects));
     std::vector<Prop> props = fetch_props(scene);
     const Box box = box_around(props);
     const Frame frame = frame_of(box);
@@ -175,6 +186,7 @@ RenderOptions rendering_of(const Scene& scene, const Staged& staged, const Camer
                           .image_method = scene.occlusion.image_method,
                           .lighting = studio_lighting(camera, scene.camera.up),
                           .shadow = scene.light.shadow,
+                          .casts_shadow = scene.light.casts_shadow,
                           .passes = passes};
     options.lighting.use = scene.occlusion.use;
     if (scene.occlusion.far_samples && options.method && options.method->has_parameter("samples"))

@@ -32,13 +32,18 @@ std::string_view kind(const toml::node& node) {
 
 }
 
-TomlTable::TomlTable(const toml::table& table, std::string file, std::string name)
-    : table_(table), file_(std::move(file)), name_(std::move(name)) {}
+TomlTable::TomlTable(const toml::table& table, std::string file, std::string name, std::string path)
+    : table_(table), file_(std::move(file)), name_(std::move(name)), path_(std::move(path)) {}
 
-void TomlTable::fail(std::string_view key, const std::string& what) const {
+void TomlTable::fail(std::string_view key, const std::string& what, std::string_view between) const {
     const toml::node* node = table_.get(key);
     const auto line = (node ? node->source() : table_.source()).begin.line;
-    throw InputError(fmt::format("{}:{}: {}{}{}", file_, line, key, key.empty() ? "" : " ", what));
+    throw InputError(fmt::format("{}:{}: {}{}{}", file_, line, key, key.empty() ? "" : between, what));
+}
+
+/// The name of a table within this one.
+std::string TomlTable::path_of(std::string_view key) const {
+    return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
@@ -128,15 +133,26 @@ std::optional<Vec3d> TomlTable::direction(std::string_view key) {
     return value;
 }
 
-std::optional<Vec3> TomlTable::color(std::string_view key) {
-    const toml::node* node = table_.get(key);
-    const std::optional<Vec3d> value =
-        node && node->is_number() ? std::optional(Vec3d(*number(key))) : vector(key);
-    if (!value)
+std::optional<Vec3> TomlTable::color(std::string_view key, double most) {
+    const toml::node* node = find(key);
+    if (!node)
         return {};
-    if (value->x < 0.0 || value->y < 0.0 || value->z < 0.0)
-        fail(key, "takes no number below 0: red, green and blue of linear light, 1 is white");
-    return Vec3(*value);
+    const bool grey = node->is_number();
+    const toml::array* array = node->as_array();
+    Vec3 result(0.0f);
+    bool right = grey || (array && array->size() == 3);
+    for (int channel = 0; right && channel < 3; ++channel) {
+        const toml::node& part = grey ? *node : *array->get(static_cast<std::size_t>(channel));
+        const std::optional<double> value = part.value<double>();
+        right = part.is_number() && value && *value >= 0.0 && *value <= most;
+        result[channel] = static_cast<float>(value.value_or(0.0));
+    }
+    if (!right)
+        fail(key, fmt::format("takes red, green and blue of linear light from 0 to {:g}, or one number for a "
+                              "grey: write {} "
+                              "= [0.8, 0.5, 0.3]",
+                              most, key));
+    return result;
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
@@ -144,8 +160,8 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) {
     if (!node)
         return {};
     if (!node->is_table())
-        fail(key, fmt::format("takes a table, not {}: write [{}]", kind(*node), key));
-    return TomlTable(*node->as_table(), file_, fmt::format("[{}]", key));
+        fail(key, fmt::format("takes a table, not {}: write [{}]", kind(*node), path_of(key)));
+    return TomlTable(*node->as_table(), file_, fmt::format("[{}]", path_of(key)), path_of(key));
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
@@ -153,10 +169,10 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
     if (!node)
         return {};
     if (!node->is_array_of_tables())
-        fail(key, fmt::format("takes tables: write [[{}]] before each", key));
+        fail(key, fmt::format("takes tables: write [[{}]] before each", path_of(key)));
     std::vector<TomlTable> result;
     for (const toml::node& element : *node->as_array())
-        result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", key));
+        result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", path_of(key)), path_of(key));
     return result;
 }
 

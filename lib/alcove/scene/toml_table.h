@@ -16,7 +16,8 @@ namespace alcove {
 /// and the mend where its value is of another kind. Keeps a reference to the table.
 class TomlTable {
   public:
-    TomlTable(const toml::table& table, std::string file, std::string name);
+    /// `path` is what keys within it are written after, such as `object` of `[[object.part]]`.
+    TomlTable(const toml::table& table, std::string file, std::string name, std::string path = {});
 
     std::optional<double> number(std::string_view key);   ///< finite
     std::optional<double> positive(std::string_view key); ///< finite, > 0
@@ -27,7 +28,8 @@ class TomlTable {
     std::optional<std::size_t> word(std::string_view key, std::initializer_list<std::string_view> words);
     std::optional<Vec3d> vector(std::string_view key);    ///< three finite numbers
     std::optional<Vec3d> direction(std::string_view key); ///< of any length but 0
-    std::optional<Vec3> color(std::string_view key);      ///< of three numbers, or one for all, from 0 on
+    /// Of three numbers, or one for all, from 0 to `most`.
+    std::optional<Vec3> color(std::string_view key, double most);
     std::optional<TomlTable> table(std::string_view key);
     std::vector<TomlTable>
     tables(std::string_view key); ///< of an array of tables; none where it is not there
@@ -42,13 +44,15 @@ class TomlTable {
     void check_all_read() const;
 
     /// An InputError that says `what`, at the line of the key or, without one, of the table.
-    [[noreturn]] void fail(std::string_view key, const std::string& what) const;
+    [[noreturn]] void fail(std::string_view key, const std::string& what,
+                           std::string_view between = " ") const;
 
   private:
     const toml::node* find(std::string_view key);
+    std::string path_of(std::string_view key) const;
 
     const toml::table& table_;
-    std::string file_, name_;
+    std::string file_, name_, path_;
     std::vector<std::string> asked_;
 };
 

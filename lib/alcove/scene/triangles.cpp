@@ -1,6 +1,7 @@
 #include "alcove/scene/triangles.h"
 
 #include "alcove/errors.h"
+#include "alcove/field/combine.h"
 #include "alcove/grid/mesh_grid.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/directions.h"
@@ -27,6 +28,9 @@ float brightness(const Color& color) {
 class Collector {
   public:
     explicit Collector(const Frame& frame) : frame_(frame) {}
+
+    /// What is added from now on is of that object.
+    void begin(ObjectId object) { object_ = object; }
 
     void add_mesh(const Prop& prop, const MeshShape& shape) {
         if (shape.painted && prop.mesh.vertex_colors.empty())
@@ -55,20 +59,26 @@ class Collector {
         }
     }
 
+    /// On voxels of the prop's own size.
     void add_field(const Prop& prop, const AnyField& field) {
         if (two_sided(field))
             throw InputError(prop.object->name +
                              ": holds an open surface, of which only the mesh itself has triangles");
-        const Mesh mesh = mesh_zero_surface(
-            [&](std::span<const Vec3> points, float* distances) {
-                for (std::size_t i = 0; i < points.size(); ++i)
-                    distances[i] = field.map(points[i]);
-            },
-            voxel);
-        const auto first = static_cast<std::uint32_t>(positions_.size());
-        for (const Vec3d& p : mesh.positions)
-            add_position(Vec3(p), Vec3(0.0f), 1.0f);
-        add_triangles(triangulate(mesh).triangles, first);
+        const Frame own = frame_of(prop.box);
+        const auto in_own = placed(field, frame_, own);
+        const auto sample = [&](std::span<const Vec3> points, float* distances) {
+            for (std::size_t i = 0; i < points.size(); ++i)
+                distances[i] = in_own.map(points[i]);
+        };
+        try {
+            const Mesh mesh = mesh_zero_surface(sample, voxel);
+            const auto first = static_cast<std::uint32_t>(positions_.size());
+            for (const Vec3d& p : mesh.positions)
+                add_position(frame_.to_unit(own.to_scene(Vec3(p))), Vec3(0.0f), 1.0f);
+            add_triangles(triangulate(mesh).triangles, first);
+        } catch (const InputError& error) {
+            throw InputError(prop.object->name + ": " + error.what());
+        }
     }
 
     void add_ground(const Plane& plane) {
@@ -87,8 +97,9 @@ class Collector {
             return nullptr;
         if (!is_painted_)
             painted_.clear();
-        return std::make_shared<const SubjectMesh>(
-            SubjectMesh{RaySurface(positions_, triangles_), std::move(normals_), std::move(painted_)});
+        return std::make_shared<const SubjectMesh>(SubjectMesh{RaySurface(positions_, triangles_),
+                                                               std::move(objects_), std::move(normals_),
+                                                               std::move(painted_)});
     }
 
   private:
@@ -96,6 +107,7 @@ class Collector {
         positions_.push_back(p);
         normals_.push_back(normal);
         painted_.push_back(painted);
+        objects_.push_back(object_);
     }
     void add_triangles(std::span<const Triangle> triangles, std::uint32_t first) {
         for (const Triangle& t : triangles)
@@ -106,6 +118,8 @@ class Collector {
     std::vector<Vec3> positions_, normals_;
     std::vector<float> painted_;
     std::vector<Triangle> triangles_;
+    std::vector<ObjectId> objects_;
+    ObjectId object_ = no_object;
     bool is_painted_ = false;
 };
 
@@ -121,12 +135,14 @@ std::shared_ptr<const SubjectMesh> triangles_of(const std::vector<Prop>& props,
         if (std::holds_alternative<PlaneShape>(prop.object->shape))
             continue;
         const AnyField& field = parts[part++].field;
+        collector.begin(static_cast<ObjectId>(part));
         const auto* mesh = std::get_if<MeshShape>(&prop.object->shape);
         if (mesh && (all || mesh->own_normals || mesh->painted))
             collector.add_mesh(prop, *mesh);
         else if (all)
             collector.add_field(prop, field);
     }
+    collector.begin(no_object);
     if (all)
         for (const Ground& ground : grounds)
             collector.add_ground(ground.plane);

@@ -7,7 +7,7 @@
 namespace alcove {
 
 /// Of the meshes that have normals or values of their own; with `all`, of everything: other meshes too, what is no mesh as
-/// the zero surface of its field on voxels of 1/256, and grounds as far as rays go. `parts` are those of the props that are no
+/// the zero surface of its field on voxels of 1/256 of itself, and grounds as far as rays go. `parts` are those of the props that are no
 /// planes, in their order. Null where nothing asks. \throw InputError naming the object: painted without vertex colours, a
 /// sheet that is no mesh.
 std::shared_ptr<const SubjectMesh> triangles_of(const std::vector<Prop>& props,
