@@ -93,13 +93,10 @@ std::string comparison(const std::filesystem::path& data, const std::filesystem:
           std::pair(
               "classic",
               "Too dark under the plate and between the legs, where five probes straight ahead soon meet "
-              "something, and blind to what stands aside."),
-          std::pair("hemisphere",
-                    "Grey where all is open, by its own formula; the fixed directions show as facets."),
-          std::pair(
-              "fibonacci",
-              "A look of its own: probes a tenth as long as their document's scene is large tell creases "
-              "alone, and its factor of 6 makes the rest white."),
+              "something; black around the foot of the ball but for its seam, whose normals lead them out."),
+          std::pair("hemisphere", "A tenth too dark where all is open, by its own formula, and soft."),
+          std::pair("fibonacci",
+                    "Grey where all is open, two thirds by its own formula, and darker only in creases."),
           std::pair("screen_space",
                     "Right where what occludes is seen. Nothing is dark below the plate, whose underside "
                     "the camera does not see, and behind outlines something is that should not be."),
