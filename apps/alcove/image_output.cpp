@@ -26,6 +26,7 @@ PassSet parse_passes(const std::vector<std::string>& names) {
             }
         if (!known) {
             std::vector<std::string_view> all;
+            all.reserve(all_passes.size());
             for (const PassInfo& info : all_passes)
                 all.push_back(info.name);
             throw UsageError(

@@ -60,7 +60,7 @@ Mesh mesh_zero_surface(const Sampler& sample, float voxel) {
     const float band = 3.0f * voxel, half_diagonal = 0.87f * side * voxel;
     const auto grid = openvdb::FloatGrid::create(band);
     grid->setGridClass(openvdb::GRID_LEVEL_SET); // tells which way faces turn
-    std::vector<Vec3> points(side * side * side);
+    std::vector<Vec3> points(openvdb::FloatTree::LeafNodeType::SIZE);
     std::vector<float> distances(points.size());
     for (int x = -blocks; x < blocks; ++x)
         for (int y = -blocks; y < blocks; ++y) {
@@ -70,7 +70,7 @@ Mesh mesh_zero_surface(const Sampler& sample, float voxel) {
             std::vector<float> away(centers.size());
             sample(centers, away.data());
             for (int z = -blocks; z < blocks; ++z) {
-                const float distance = away[static_cast<std::size_t>(z + blocks)];
+                const float distance = away[static_cast<std::size_t>(z) + static_cast<std::size_t>(blocks)];
                 const openvdb::Coord low(side * x, side * y, side * z);
                 if (std::fabs(distance) > half_diagonal + band) {
                     if (distance < 0.0f) // deep inside

@@ -59,6 +59,7 @@ AnyField united(const std::vector<Part>& parts) {
     if (parts.size() == 1)
         return parts.front().field;
     std::vector<AnyField> fields;
+    fields.reserve(parts.size());
     for (const Part& part : parts)
         fields.push_back(part.field);
     return UnionOf<AnyField>(std::move(fields));
