@@ -175,6 +175,26 @@ TEST_F(GridFile, TruncationIsFoundWhateverTheCompression) {
     }
 }
 
+/// OpenVDB reads as many bytes as a length says, into room for as many as there should be.
+TEST_F(GridFile, LengthsOfValuesAreNotBelieved) {
+    for (const std::uint32_t compression : {1u, 4u, 6u}) {
+        write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),
+                      "whole.vdb", compression);
+        ASSERT_EQ(refusal("whole.vdb"), "read");
+        std::ifstream in(path("whole.vdb"), std::ios::binary);
+        const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+        const std::int64_t too_long = -100000; // as it is, without compression
+        int refused = 0;
+        for (std::size_t at = 500; at + 8 < bytes.size(); at += bytes.size() / 50) {
+            std::string damaged = bytes;
+            damaged.replace(at, 8, reinterpret_cast<const char*>(&too_long), 8);
+            std::ofstream(path("damaged.vdb"), std::ios::binary) << damaged;
+            refused += refusal("damaged.vdb") != "read";
+        }
+        EXPECT_GT(refused, 0) << compression; // and nothing is written beyond its room
+    }
+}
+
 TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
     std::ofstream(path("text.vdb")) << "this is no grid";
     EXPECT_NE(refusal("text.vdb").find("no readable .vdb file"), std::string::npos);

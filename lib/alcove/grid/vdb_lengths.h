@@ -5,8 +5,9 @@
 
 namespace alcove {
 
-/// Follows the names and metadata of the file and of its grids, whose trees are not looked at. \throw InputError where
-/// one is longer than what is left of the file. What is no .vdb passes: OpenVDB says so better.
+/// Follows the names and metadata of the file and of its grids, and the nodes of trees of floats. \throw InputError where a
+/// length is more than what is left of the file, or other than that of the values it is of. What is no .vdb passes:
+/// OpenVDB says so better. Cost: reads the file once.
 void check_vdb_lengths(const std::filesystem::path& file);
 
 }
