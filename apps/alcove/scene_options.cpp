@@ -86,6 +86,8 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
                       "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
     add_method_options(verb, request.method,
                        "Estimator, march_steps or screen_space of the picture itself, or none: ");
+    verb.get_option("--rays")->description(
+        "Rays a sample of a pixel, for methods that trace (traced and exact: 16)");
     verb.add_option("--eye", request.eye, "Where the camera is; default: where it sees all")
         ->type_name("X,Y,Z");
     verb.add_option("--look-at", request.look_at, "What it looks at; default: the middle")

@@ -55,8 +55,8 @@ struct RayPrecision {
 /// Rays from the eye through the same `samples` places of every pixel, sphere-traced inside the box of the
 /// subject.
 ///
-/// The surface is where the field crosses zero, found to a fiftieth of a voxel; normals are central
-/// differences of the field, mirrored to the eye's side where they lean away. Of a two-sided field they are
+/// The surface is where the field crosses zero, found to a hundredth of a voxel off its edges and outlines; normals are
+/// central differences of the part that is met, mirrored to the eye's side where they lean away. Of a two-sided field they are
 /// taken in front of its faces, whichever side is seen: behind them distances jump. Grounds are met exactly. Keeps
 /// references to both arguments. Const use is thread-safe.
 class CameraRays {

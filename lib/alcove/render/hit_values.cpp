@@ -60,9 +60,7 @@ int samples_at(float distance, int near_samples, const FewerSamples& fewer) {
 
 HitValues values_of(const Hits& hits, const Subject& subject, const Occluders& surroundings, const Vec3d& eye,
                     const RenderOptions& options, const Progress& progress) {
-    const bool beauty = options.passes.has(Pass::beauty);
-    const bool ao = options.passes.has(Pass::ao) || beauty;
-    const bool convexity = options.passes.has(Pass::convexity) || (beauty && has_edge_colors(subject));
+    const bool ao = need_ao(options.passes);
     HitValues values;
     if (ao && options.method && options.fewer) {
         values.ao = bake_by_distance(hits.surfels, surroundings, eye, options, progress);
@@ -70,12 +68,12 @@ HitValues values_of(const Hits& hits, const Subject& subject, const Occluders& s
         values.ao = std::move(bake_channels(hits.surfels, surroundings, *options.method, options.settings,
                                             Channel::ao, progress)[Channel::ao]);
     }
-    if (convexity) {
+    if (need_convexity(options.passes, has_edge_colors(subject))) {
         const Settings settings{.radius = options.settings.radius};
         values.convexity = std::move(bake_channels(hits.surfels, surroundings, find_method("classic"),
                                                    settings, Channel::convexity)[Channel::convexity]);
     }
-    if (options.passes.has(Pass::shadow) || (beauty && options.casts_shadow))
+    if (need_shadow(options.passes, options.casts_shadow))
         values.shadow =
             soft_shadows(hits.surfels, surroundings.field(), options.lighting.toward_key, options.shadow);
     return values;

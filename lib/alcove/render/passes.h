@@ -39,6 +39,17 @@ constexpr PassSet operator|(Pass a, Pass b) {
     return PassSet(a) | b;
 }
 
+// What must be known of the places of a picture to draw its passes.
+constexpr bool need_ao(PassSet wanted) {
+    return wanted.has(Pass::ao) || wanted.has(Pass::beauty);
+}
+constexpr bool need_convexity(PassSet wanted, bool has_edge_colors) {
+    return wanted.has(Pass::convexity) || (wanted.has(Pass::beauty) && has_edge_colors);
+}
+constexpr bool need_shadow(PassSet wanted, bool casts_shadow) {
+    return wanted.has(Pass::shadow) || (wanted.has(Pass::beauty) && casts_shadow);
+}
+
 /// What is drawn where nobody says what.
 inline constexpr PassSet standard_passes = Pass::beauty | Pass::ao | Pass::depth | Pass::normal;
 

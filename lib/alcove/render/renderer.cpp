@@ -140,9 +140,8 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
                                        : Occluders(subject.surroundings());
     const Vec3d eye = (camera.eye() - subject.frame.center) / subject.frame.diagonal;
     const Resolver resolve(subject, eye, options, image);
-    const bool shows_ao = options.passes.has(Pass::ao) || options.passes.has(Pass::beauty);
     std::vector<float> ao_of_pixels;
-    if (options.image_method && shows_ao)
+    if (options.image_method && need_ao(options.passes))
         ao_of_pixels = options.image_method->occlusion(subject, camera, options.settings);
     std::size_t finished = 0;
     Hits hits;

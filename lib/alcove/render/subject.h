@@ -6,7 +6,6 @@
 #include "alcove/render/shading.h"
 #include "alcove/render/subject_mesh.h"
 
-#include <limits>
 #include <memory>
 #include <vector>
 

@@ -12,6 +12,14 @@
 namespace alcove {
 namespace {
 
+/// A visitor made of lambdas.
+template <class... Cases>
+struct Overloaded : Cases... {
+    using Cases::operator()...;
+};
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
 /// A field of the unit space of `own`, a frame in the space of the prop.
 template <Field F>
 AnyField put(F field, const Frame& own, const Prop& prop, const Stage& stage) {

@@ -32,12 +32,4 @@ void for_each_prop(Props& props, const Visit& visit) {
     }
 }
 
-/// A visitor made of lambdas.
-template <class... Cases>
-struct Overloaded : Cases... {
-    using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
 }

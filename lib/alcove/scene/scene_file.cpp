@@ -5,6 +5,7 @@
 #include "alcove/scene/toml_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -75,6 +76,11 @@ std::filesystem::path file_of(TomlTable& table, const std::filesystem::path& fol
     return folder / *file;
 }
 
+/// The shapes, in the order of their words.
+enum class Kind { sphere, box, torus, capsule, plane, mesh, vdb, unite, subtract };
+const std::initializer_list<std::string_view> kinds{"sphere", "box", "torus", "capsule",   "plane",
+                                                    "mesh",   "vdb", "union", "difference"};
+
 class ObjectReader {
   public:
     ObjectReader(const Materials& materials, std::filesystem::path folder)
@@ -84,22 +90,19 @@ class ObjectReader {
         constexpr int deepest = 32;
         if (depth > deepest)
             table.fail("", fmt::format("parts may be nested {} deep", deepest));
-        const std::initializer_list<std::string_view> words{"sphere", "box", "torus", "capsule",   "plane",
-                                                            "mesh",   "vdb", "union", "difference"};
-        const std::optional<std::size_t> shape = table.word("shape", words);
-        if (!shape)
-            table.fail("",
-                       fmt::format("{} needs a shape: write shape = \"sphere\", or another of {}",
-                                   table.name(), "box, torus, capsule, plane, mesh, vdb, union, difference"));
+        const std::optional<std::size_t> kind = table.word("shape", kinds);
+        if (!kind)
+            table.fail("", fmt::format("{} needs a shape: write shape = \"sphere\", or another of {}",
+                                       table.name(), fmt::join(kinds, ", ")));
         SceneObject object;
         object.name =
-            table.text("name").value_or(fmt::format("{} ({})", fallback_name, words.begin()[*shape]));
+            table.text("name").value_or(fmt::format("{} ({})", fallback_name, kinds.begin()[*kind]));
         take(object.placement.translation, table.vector("translate"));
         take(object.placement.rotation, table.vector("rotate"));
         take(object.placement.scale, table.positive("scale"));
         if (depth == 0)
             object.material = material_of(table, materials_);
-        object.shape = read_shape(table, *shape, object.name, depth);
+        object.shape = read_shape(table, static_cast<Kind>(*kind), object.name, depth);
         for (const char* key : {"normals", "painted"})
             if (depth > 0 && table.has(key))
                 table.fail(key, "is for meshes by themselves: parts have the normals of their field");
@@ -108,15 +111,15 @@ class ObjectReader {
     }
 
   private:
-    Shape read_shape(TomlTable& table, std::size_t shape, const std::string& name, int depth) const {
-        switch (shape) {
-        case 0: {
+    Shape read_shape(TomlTable& table, Kind kind, const std::string& name, int depth) const {
+        switch (kind) {
+        case Kind::sphere: {
             SphereShape sphere;
             take(sphere.center, table.vector("center"));
             take(sphere.radius, table.positive("radius"));
             return sphere;
         }
-        case 1: {
+        case Kind::box: {
             BoxShape box;
             take(box.center, table.vector("center"));
             take(box.size, table.vector("size"));
@@ -124,27 +127,27 @@ class ObjectReader {
                 table.fail("size", "takes three numbers above 0");
             return box;
         }
-        case 2: {
+        case Kind::torus: {
             TorusShape torus;
             take(torus.center, table.vector("center"));
             take(torus.ring, table.positive("ring"));
             take(torus.tube, table.positive("tube"));
             return torus;
         }
-        case 3: {
+        case Kind::capsule: {
             CapsuleShape capsule;
             take(capsule.start, table.vector("start"));
             take(capsule.end, table.vector("end"));
             take(capsule.radius, table.positive("radius"));
             return capsule;
         }
-        case 4: {
+        case Kind::plane: {
             PlaneShape plane;
             take(plane.point, table.vector("point"));
             take(plane.normal, table.direction("normal"));
             return plane;
         }
-        case 5: {
+        case Kind::mesh: {
             MeshShape mesh{file_of(table, folder_), length(table, "voxel")};
             if (mesh.voxel && (mesh.voxel->unit == Length::Unit::voxels || std::isinf(mesh.voxel->value)))
                 table.fail("voxel", "is what vx stands for: write 0.2 (scene units) or \"0.5%\"");
@@ -155,11 +158,13 @@ class ObjectReader {
             take(mesh.painted, table.flag("painted"));
             return mesh;
         }
-        case 6:
+        case Kind::vdb:
             return GridShape{file_of(table, folder_)};
-        default:
-            return read_composite(table, shape == 7, name, depth);
+        case Kind::unite:
+        case Kind::subtract:
+            break;
         }
+        return read_composite(table, kind == Kind::unite, name, depth);
     }
 
     CompositeShape read_composite(TomlTable& table, bool unite, const std::string& name, int depth) const {

@@ -67,7 +67,7 @@ AnyField united(const std::vector<Part>& parts) {
 
 /// As far as distances are to be right. A soft shadow tells those from less than the way, over its sharpness.
 float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity) {
-    const bool shadow = passes.has(Pass::shadow) || (passes.has(Pass::beauty) && scene.light.casts_shadow);
+    const bool shadow = need_shadow(passes, scene.light.casts_shadow);
     const SoftShadow& shape = scene.light.shadow;
     return std::max(scene.occlusion.method || convexity ? radius : 0.0f,
                     shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
@@ -126,8 +126,7 @@ Staged stage(const Scene& scene, PassSet passes, const Progress& progress) {
     const Box box = box_around(props);
     const Frame frame = frame_of(box);
     const float radius = scene.occlusion.radius.to_unit(frame.diagonal, named_voxel(props, frame));
-    const bool convexity =
-        passes.has(Pass::convexity) || (passes.has(Pass::beauty) && has_edge_colors(scene));
+    const bool convexity = need_convexity(passes, has_edge_colors(scene));
     const Stage common{frame, radius, reach_of(scene, passes, radius, convexity),
                        memory_limit / std::max(1.0, static_cast<double>(count_grids(props))), progress};
 

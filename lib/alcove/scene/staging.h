@@ -16,8 +16,8 @@ struct Staged {
 };
 
 /// Unit space is that of the box around all that is bounded; its diagonal is what a radius in % is of. Level sets that
-/// do not reach as far as occlusion asks are extended, as extend_levels() does. The ground has no camera to look
-/// from yet: `up` is its normal, as scene.camera has it.
+/// do not reach as far as occlusion and soft shadows ask, for these passes, are extended, as extend_levels() does. The
+/// ground lies across the `up` of the scene's camera.
 ///
 /// \throw InputError naming the object and its file: what read_mesh(), read_grids() and voxelize() throw; a difference
 /// or blended union of what is no solid; a plane in a union or cut by others; nothing to see. LimitError as voxelize().
