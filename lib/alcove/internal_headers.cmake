@@ -43,6 +43,7 @@ set(alcove_internal_headers
     radix_sort.h
     render/camera_rays.h
     render/cones.h
+    render/creases.h
     render/hit_values.h
     render/snap.h
     resident_memory.h

@@ -65,16 +65,13 @@ Camera::Camera(const Vec3d& eye, const Vec3d& look_at, const Vec3d& up, double f
     right_ = glm::cross(forward_, up_);
     half_width_ = std::tan(0.5 * fov * std::numbers::pi / 180.0);
     half_height_ = half_width_ * size.height / size.width;
+    corner_ = forward_ - half_width_ * right_ + half_height_ * up_;
+    pixel_right_ = 2.0 * half_width_ / size.width * right_;
+    pixel_down_ = -2.0 * half_height_ / size.height * up_;
 }
 
 double Camera::fov() const {
     return 2.0 * std::atan(half_width_) * 180.0 / std::numbers::pi;
-}
-
-Vec3d Camera::direction(double x, double y) const {
-    const double across_width = 2.0 * x / size_.width - 1.0;
-    const double down_height = 2.0 * y / size_.height - 1.0;
-    return glm::normalize(forward_ + across_width * half_width_ * right_ - down_height * half_height_ * up_);
 }
 
 Vec3d Camera::project(const Vec3d& p) const {

@@ -42,7 +42,9 @@ class Camera {
     double screen_window_width() const { return 2.0 * half_width_; } ///< of the image plane at depth 1
 
     /// Unit direction of the ray through a place of the image.
-    Vec3d direction(double x, double y) const;
+    Vec3d direction(double x, double y) const {
+        return glm::normalize(corner_ + x * pixel_right_ + y * pixel_down_);
+    }
     /// (x, y, depth) of a point in front of the eye; places outside the image are outside [0, width] × [0,
     /// height].
     Vec3d project(const Vec3d& p) const;
@@ -55,7 +57,8 @@ class Camera {
 
   private:
     Vec3d eye_, right_, up_, forward_;
-    double half_width_, half_height_; // of the image plane at depth 1
+    double half_width_, half_height_;         // of the image plane at depth 1
+    Vec3d corner_, pixel_right_, pixel_down_; // its upper left one from the eye, and the sides of a pixel
     ImageSize size_;
 };
 

@@ -1,6 +1,7 @@
 #include "alcove/render/camera_rays.h"
 
 #include "alcove/occlusion/directions.h"
+#include "alcove/render/creases.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +36,9 @@ struct Span {
                     leave = -1.0;
                 continue;
             }
-            const double a = (low[axis] - origin[axis]) / direction[axis];
-            const double b = (high[axis] - origin[axis]) / direction[axis];
+            const double inverse = 1.0 / direction[axis];
+            const double a = (low[axis] - origin[axis]) * inverse;
+            const double b = (high[axis] - origin[axis]) * inverse;
             enter = std::max(enter, std::min(a, b));
             leave = std::min(leave, std::max(a, b));
         }
@@ -215,7 +217,7 @@ void CameraRays::meet(Batch& rays, Hits& hits) const {
         }
         const Gradients gradient = differences(field_, places(met), precision_.difference);
         for (std::size_t i = 0; i < met.count; ++i)
-            set(met, i, gradient[i], 1, hits);
+            set_sharpened(field_, met, i, gradient[i], 1, hits);
         return;
     }
     // More jumps than the two of a thin wall are only met where faces cross; the last is taken for a surface.
@@ -251,7 +253,7 @@ void CameraRays::meet_parts(Batch& met, Hits& hits) const {
         const AnyField& field = subject_.parts[part].field;
         const Gradients gradient = differences(field, own, RayPrecision(resolution(field)).difference);
         for (std::size_t k = 0; k < own.count; ++k)
-            set(met, index[k], gradient[k], static_cast<ObjectId>(part + 1), hits);
+            set_sharpened(field, met, index[k], gradient[k], static_cast<ObjectId>(part + 1), hits);
     }
 }
 
@@ -331,6 +333,18 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
             met.travelled[i] = std::max(met.travelled[i] + sign[i] * distance[i], earliest[i]);
     }
     return met;
+}
+
+/// Sets a hit of a field, moved to where a sharp edge is unless it is moved onto triangles anyway. The gradient is one of
+/// differences().
+void CameraRays::set_sharpened(const AnyField& field, Batch& met, std::size_t i, const Vec3& gradient,
+                               ObjectId object, Hits& hits) const {
+    if (!subject_.mesh) {
+        const float width = 2.0f * RayPrecision(resolution(field)).difference;
+        if (const auto further = meet_crease(field, met.place(i), gradient / width, met.direction(i)))
+            met.travelled[i] += *further;
+    }
+    set(met, i, gradient, object, hits);
 }
 
 void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, ObjectId object,

@@ -10,7 +10,7 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t samples_at_once = std::size_t{1} << 20;
+constexpr std::size_t samples_at_once = std::size_t{1} << 18;
 
 /// Rectangles that cover the image, of as many samples as are worked on at once, or of a single pixel.
 std::vector<PixelRegion> regions(ImageSize size, int samples) {
