@@ -77,7 +77,7 @@ class Survey {
   public:
     void add(const MeasuredMesh& mesh, bool errors_count) {
         const auto triangles = static_cast<double>(mesh.triangles.size());
-        const double area = surface_area(mesh.mesh, mesh.triangles);
+        const double area = surface_size(mesh.mesh, mesh.triangles).area;
         costs_.tree.emplace_back(triangles, mesh.tree_seconds);
         for (std::size_t r = 0; r < radii.size(); ++r) {
             const Truth truth = make_truth(mesh, radii[r], truth_options);

@@ -1,7 +1,10 @@
 #include "baking.h"
 
 #include "alcove/accuracy/planned_bake.h"
+#include "alcove/accuracy/thin_walls.h"
 #include "alcove/grid/plan.h"
+
+#include <fmt/format.h>
 
 #include <limits>
 #include <map>
@@ -10,6 +13,24 @@ namespace alcove::cli {
 
 Needs BakeTask::needs() const {
     return needs_of(method ? *method : find_method("exact"), wanted);
+}
+
+std::string thin_wall_warning(double rmse, const Method& method, std::span<const Surfel> surfels,
+                              const Occluders& occluders, double diagonal, double finest_voxel) {
+    constexpr double small_rmse = 0.03, few = 0.005;
+    if (rmse <= small_rmse || !method.asks_field || method.asks_rays)
+        return {};
+    const AnyField& field = occluders.field();
+    const ThinWalls walls = thin_walls(surfels, occluders.rays(), resolution(field), two_sided(field));
+    if (walls.share < few)
+        return {};
+    const std::string finer = double(walls.voxel) < finest_voxel
+                                  ? ""
+                                  : fmt::format("--voxel {:.2g}, or ", double(walls.voxel) * diagonal);
+    return fmt::format(
+        "{:.0f} % of the vertices are on walls too thin for the voxel of {:.2g}, and rays through "
+        "the grid pass them: use {}--method guided, whose rays meet the triangles",
+        100.0 * walls.share, double(resolution(field)) * diagonal, finer);
 }
 
 Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const BakeTask& task,
@@ -26,8 +47,15 @@ Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const B
     watch.lap();
     if (with_pilot) {
         const Pilot pilot(surfels, occluders.rays(), task.settings.radius, pilot_beside(baked.choice.rays()));
-        if (!pilot.empty())
+        if (!pilot.empty()) {
             baked.rmse = pilot.rmse(baked.values[Channel::ao]);
+            const std::string warning =
+                thin_wall_warning(*baked.rmse, *task.method, surfels, occluders, input.frame.diagonal,
+                                  finest_voxel(surface_size(input.mesh, input.triangles),
+                                               input.triangles.size(), input.options.grid));
+            if (!warning.empty())
+                input.warnings.push_back(warning);
+        }
         baked.pilot_seconds = watch.lap();
     }
     return baked;
@@ -61,8 +89,8 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
         return field;
     };
     baked.pilot_seconds = watch.lap();
-    const double area = surface_area(input.mesh, input.triangles);
-    const double finest = surroundings.fit() ? finest_voxel(area, input.triangles.size(), input.options.grid)
+    const SurfaceSize size = surface_size(input.mesh, input.triangles);
+    const double finest = surroundings.fit() ? finest_voxel(size, input.triangles.size(), input.options.grid)
                                              : std::numeric_limits<double>::infinity();
     PlannedBake planned = bake_planned(surfels, surface, make_field, pilot,
                                        {.error = *task.planning.error,
@@ -70,7 +98,7 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
                                         .seed = task.seed,
                                         .surfels = surfels.size(),
                                         .triangles = input.triangles.size(),
-                                        .area = area,
+                                        .area = size.area,
                                         .finest_voxel = finest,
                                         .has_grid = has_grid,
                                         .wanted = task.wanted},

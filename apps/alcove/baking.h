@@ -30,6 +30,11 @@ struct Baked {
     double grid_seconds = 0.0, pilot_seconds = 0.0; ///< of the time it took
 };
 
+/// What to say where an RMSE of more than 0.03 may come from walls that the grid is too coarse for; else empty, and where the
+/// method traces the triangles. `diagonal` of the mesh, scene units; `finest_voxel` that fits in memory, unit space.
+std::string thin_wall_warning(double rmse, const Method& method, std::span<const Surfel> surfels,
+                              const Occluders& occluders, double diagonal, double finest_voxel);
+
 /// The mesh as a whole, by the method of the task.
 Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const BakeTask& task,
                  std::span<const Surfel> surfels, const Progress& progress);

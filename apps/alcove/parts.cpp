@@ -1,6 +1,7 @@
 #include "baking.h"
 
 #include "alcove/accuracy/pilot.h"
+#include "alcove/grid/plan.h"
 #include "alcove/mesh/parts.h"
 
 #include <fmt/format.h>
@@ -83,9 +84,12 @@ Baked bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const B
         const Occluders occluders = surroundings.around(mesh, triangles, stack, frame, needs);
         result.grid_seconds += watch.lap();
         result.grid.include(facts_of(stack));
-        for (const std::string& warning : stack.warnings)
+        const auto warn = [&](const std::string& warning) {
             if (++warned <= most_warnings)
                 input.warnings.push_back(fmt::format("part {} of {}: {}", p + 1, parts.size(), warning));
+        };
+        for (const std::string& warning : stack.warnings)
+            warn(warning);
 
         Settings of_part = task.settings;
         of_part.radius = input.radius * scale;
@@ -100,8 +104,15 @@ Baked bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const B
             const Pilot pilot(
                 surfels, occluders.rays(), of_part.radius,
                 pilot_of_part(pilot_beside(result.choice.rays()), surfels.size(), input.mesh.vertex_count()));
-            if (!pilot.empty())
-                error.add(pilot.rmse(values[Channel::ao]), surfels.size());
+            if (!pilot.empty()) {
+                const double rmse = pilot.rmse(values[Channel::ao]);
+                error.add(rmse, surfels.size());
+                const std::string warning = thin_wall_warning(
+                    rmse, *task.method, surfels, occluders, frame.diagonal,
+                    finest_voxel(surface_size(mesh, triangles), triangles.size(), input.options.grid));
+                if (!warning.empty())
+                    warn(warning);
+            }
             result.pilot_seconds += watch.lap();
         }
         for (float& thickness : values[Channel::thickness])

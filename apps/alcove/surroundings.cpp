@@ -113,7 +113,7 @@ double Surroundings::memory_each() const {
 
 bool Surroundings::fit() const {
     return std::all_of(occluders_.begin(), occluders_.end(), [&](const Occluder& occluder) {
-        return std::isfinite(finest_voxel(surface_area(occluder.mesh, occluder.triangles),
+        return std::isfinite(finest_voxel(surface_size(occluder.mesh, occluder.triangles),
                                           occluder.triangles.size(),
                                           {.thin = true, .memory_limit = memory_each()}));
     });

@@ -162,7 +162,7 @@ class Market {
                             .radius = radius_,
                             .surfels = mesh_.surfels.size(),
                             .triangles = mesh_.triangles.size(),
-                            .area = surface_area(mesh_.mesh, mesh_.triangles)};
+                            .area = surface_size(mesh_.mesh, mesh_.triangles).area};
         const auto field = [&](float voxel) -> AnyField { return grids_.at(voxel).field; };
         const Pilot pilot(mesh_.surfels, mesh_.rays, radius_, pilot_for(error));
         Bought bought{bake_planned(mesh_.surfels, mesh_.rays, field, pilot, request), 0.0, {}, 0.0, {}};

@@ -104,3 +104,4 @@
 #include "alcove/accuracy/planner.h"
 #include "alcove/accuracy/report.h"
 #include "alcove/accuracy/subset.h"
+#include "alcove/accuracy/thin_walls.h"

@@ -22,6 +22,7 @@ set(alcove_internal_headers
     grid/triangle_distance-inl.h
     grid/triangle_group.h
     grid/triangle_tree.h
+    grid/twins.h
     grid/vdb.h
     grid/vdb_lengths.h
     grid/winding.h

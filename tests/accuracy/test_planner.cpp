@@ -24,7 +24,7 @@ class Planning : public testing::Test {
                 .radius = radius,
                 .surfels = mesh_.surfels.size(),
                 .triangles = mesh_.triangles.size(),
-                .area = surface_area(mesh_.mesh, mesh_.triangles)};
+                .area = surface_size(mesh_.mesh, mesh_.triangles).area};
     }
 
     struct Expected {

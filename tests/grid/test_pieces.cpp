@@ -47,6 +47,26 @@ TEST(Pieces, HoldEveryTriangleOnce) {
     }
 }
 
+/// Halved side by side, they would be a thousand each.
+TEST(Pieces, OfNeedlesGrowWithTheirLengthAlone) {
+    std::vector<Vec3d> positions;
+    std::vector<Triangle> triangles;
+    for (const double width : {1e-3, 0.1, 1.0, 2.5})
+        for (const double foot : {0.0, 1e-9, 0.3, 0.5, 1.0}) {
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            const Vec3d at(3.0, 2.0, 1.0), along(300.0, 100.0, 50.0);
+            positions.insert(
+                positions.end(),
+                {at, at + along, at + foot * along + width * glm::normalize(Vec3d(1.0, -3.0, 0.0))});
+            triangles.push_back({first, first + 1, first + 2});
+        }
+    expect_whole(positions, triangles);
+    const GroupedPieces pieces(positions, triangles);
+    const double length = glm::length(Vec3d(300.0, 100.0, 50.0));
+    EXPECT_LE(static_cast<double>(pieces.begin(pieces.count())),
+              static_cast<double>(triangles.size()) * (2.0 * length / 2.8 + 4.0));
+}
+
 TEST(Pieces, OfOneCellAreGroupedToo) {
     const std::vector<Vec3d> positions{{0.1, 0.1, 0.1}, {0.2, 0.1, 0.1}, {0.1, 0.2, 0.1}};
     expect_whole(positions, std::vector<Triangle>(1000, Triangle{0, 1, 2}));

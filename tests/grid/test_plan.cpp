@@ -63,7 +63,7 @@ TEST(Plan, TrianglesThatDoNotFitAreRefused) {
     const Mesh mesh = test::sphere_mesh(3);
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const GridOptions tiny{.memory_limit = 100.0 * static_cast<double>(triangles.size())};
-    EXPECT_EQ(finest_voxel(surface_area(mesh, triangles), triangles.size(), tiny), INFINITY);
+    EXPECT_EQ(finest_voxel(surface_size(mesh, triangles), triangles.size(), tiny), INFINITY);
     EXPECT_THROW(plan(mesh, tiny), LimitError);
     EXPECT_THROW(plan(mesh, {.voxel = 0.5f, .memory_limit = tiny.memory_limit}), LimitError);
 }
@@ -85,6 +85,20 @@ TEST(Plan, AVoxelFitsOrIsRefusedWhateverTheLimit) {
         EXPECT_GT(whole, 0u);
         EXPECT_EQ(thinned > 0, thin);
     }
+}
+
+/// The pieces that long triangles are cut into, at 60 bytes each, are the most of it.
+TEST(Plan, NeedlesAreCountedByTheirLength) {
+    Mesh needles;
+    constexpr std::uint32_t count = 10'000;
+    for (std::uint32_t i = 0; i <= count; ++i)
+        needles.positions.emplace_back(i == count ? 0.0 : 1.0, 1e-7 * i, 0.0);
+    for (std::uint32_t i = 0; i + 1 < count; ++i)
+        needles.add_face(std::array{count, i, i + 1});
+    EXPECT_GT(plan(needles, {.voxel = 1.0f / 1024}).bytes, 60.0 * count * 1024 / 2);
+    EXPECT_THROW(plan(needles, {.voxel = 1.0f / 1024, .memory_limit = 3e8}), LimitError);
+    const LevelPlan coarse = plan(needles, {.memory_limit = 3e8});
+    EXPECT_LE(coarse.bytes, 3e8);
 }
 
 TEST(Plan, FinerVoxelsNeverTakeLess) {

@@ -21,6 +21,37 @@ double longest2(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return std::max({length2(b - a), length2(c - b), length2(a - c)});
 }
 
+/// Triangles that are no higher than this above their longest side are sliced across it, others halved.
+constexpr double highest_slice = 0.7 * longest_piece;
+
+/// Calls `visit(corners)` for each piece of a triangle whose longest side is bc, that far below a. Halving would make as
+/// many of a needle as the power 1.6 of its length.
+template <class Visit>
+void slice(const Vec3d& a, const Vec3d& b, const Vec3d& c, double height, Visit&& visit) {
+    const double side2 = length2(c - b), foot = glm::dot(a - b, c - b) / side2;
+    const auto above = [&](double t) {
+        return t < foot ? b + t / foot * (a - b) : a + (t - foot) / (1.0 - foot) * (c - a);
+    };
+    const auto count =
+        static_cast<int>(std::ceil(std::sqrt(side2 / (longest_piece * longest_piece - height * height))));
+    Vec3d low = b, high = b;
+    const auto add = [&](const Vec3d& next_low, const Vec3d& next_high) {
+        visit(low, next_low, next_high);
+        visit(low, next_high, high);
+        low = next_low, high = next_high;
+    };
+    bool at_foot = foot <= 0.0 || foot >= 1.0;
+    for (int i = 1; i <= count; ++i) {
+        const double t = static_cast<double>(i) / count;
+        if (!at_foot && t >= foot) {
+            add(b + foot * (c - b), a);
+            at_foot = true;
+        }
+        if (t != foot)
+            add(i < count ? b + t * (c - b) : c, i < count ? above(t) : c);
+    }
+}
+
 /// Calls `visit(corners)` for each piece of a triangle.
 template <class Visit>
 void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, Visit&& visit) {
@@ -29,6 +60,9 @@ void cut(const Vec3d& a, const Vec3d& b, const Vec3d& c, Visit&& visit) {
         return ab > ca ? cut(c, a, b, visit) : cut(b, c, a, visit);
     if (bc <= longest_piece * longest_piece)
         return visit(a, b, c);
+    const double height = glm::length(glm::cross(b - a, c - a)) / std::sqrt(bc);
+    if (height <= highest_slice)
+        return slice(a, b, c, height, visit);
     const Vec3d middle = 0.5 * (b + c);
     cut(a, b, middle, visit);
     cut(a, middle, c, visit);
@@ -78,6 +112,8 @@ GroupedPieces::GroupedPieces(std::span<const Vec3d> positions, std::span<const T
                 continue;
             }
             cut(a, b, c, [&](const Vec3d& p, const Vec3d& q, const Vec3d& r) {
+                if (!has_area(p, q, r))
+                    return;
                 block.parts.push_back({key(p, q, r), static_cast<std::uint32_t>(block.pieces.size())});
                 block.pieces.push_back(piece_of(p, q, r, t));
             });

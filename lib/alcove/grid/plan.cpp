@@ -23,6 +23,7 @@ constexpr float least_outer_band = 3.0f, least_inner_band = 2.0f; // voxels
 constexpr double bytes_per_band_voxel = 60.0;
 constexpr double bytes_per_triangle = 240.0;
 constexpr double bytes_to_thin_a_triangle = 100.0;
+constexpr double bytes_per_voxel_of_length = 75.0; // of the pieces that long triangles are cut into
 // Triangles that a surface has for each cell of the grid that it is in, area / voxel², once it is thinned; as measured.
 // Thinning pays where that halves them.
 constexpr double thinned_triangles = 12.0;
@@ -33,14 +34,15 @@ constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
 constexpr double coarsest_voxel = 1.0; // none is larger than the diagonal
 
-/// Bytes = fixed + by_surface / voxel², where the surface is thinned and where it is not.
+/// Bytes = fixed + by_length / voxel + by_surface / voxel², where the surface is thinned and where it is not.
 struct Estimate {
     double area, triangles;
     bool may_thin;
-    double least, by_surface;
+    double least, by_surface, by_length;
 
-    Estimate(double surface, std::size_t count, const GridOptions& options)
-        : area(surface), triangles(static_cast<double>(count)), may_thin(options.thin) {
+    Estimate(const SurfaceSize& size, std::size_t count, const GridOptions& options)
+        : area(size.area), triangles(static_cast<double>(count)), may_thin(options.thin),
+          by_length(bytes_per_voxel_of_length * size.length) {
         const double band = 2.0 * std::max(options.outer_band, least_outer_band);
         // A band around a point or a line still fills a ball or a tube: one block of leaves at least.
         least = levels_over_finest * 4.0 * band * band * band * bytes_per_band_voxel;
@@ -54,20 +56,21 @@ struct Estimate {
     }
     double bytes(double voxel) const {
         return least + by_surface / (voxel * voxel) + bytes_per_triangle * voxelized(voxel) +
-               (thins(voxel) ? bytes_to_thin_a_triangle * triangles : 0.0);
+               (thins(voxel) ? bytes_to_thin_a_triangle * triangles : by_length / voxel);
     }
     double finest(double limit) const {
         if (!(bytes(coarsest_voxel) < limit))
             return std::numeric_limits<double>::infinity();
-        const auto solved = [&](double fixed, double by_area) {
-            return std::sqrt(by_area / (limit - fixed));
+        const auto solved = [&](double fixed, double by_length_there, double by_area) {
+            const double left = limit - fixed, half = 0.5 * by_length_there / left;
+            return half + std::sqrt(half * half + by_area / left);
         };
         const double of_all = least + bytes_per_triangle * triangles;
-        double voxel = solved(of_all, by_surface);
+        double voxel = solved(of_all, by_length, by_surface);
         // Below the voxel from which on surfaces are thinned, bytes are more.
         if (!(of_all < limit) || thins(voxel))
             voxel = std::max(std::sqrt(worth_thinning * area / triangles),
-                             solved(least + bytes_to_thin_a_triangle * triangles,
+                             solved(least + bytes_to_thin_a_triangle * triangles, 0.0,
                                     by_surface + bytes_per_triangle * thinned_triangles * area));
         return std::max(voxel, 1.0 / largest_index);
     }
@@ -81,21 +84,27 @@ std::string too_many(std::size_t triangles, double bytes, const GridOptions& opt
 
 }
 
-double surface_area(const Mesh& mesh, std::span<const Triangle> triangles) {
+SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles) {
     const Frame frame = frame_of(mesh.box());
     const double scale = 1.0 / frame.diagonal;
     constexpr std::size_t grain = 16384;
-    std::vector<double> sums((triangles.size() + grain - 1) / grain);
+    std::vector<SurfaceSize> sums((triangles.size() + grain - 1) / grain);
     parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
-        double sum = 0.0;
+        SurfaceSize sum;
         for (const Triangle& t : triangles.subspan(begin, end - begin)) {
             const Vec3d& a = mesh.positions[t[0]];
-            sum += glm::length(
-                glm::cross(scale * (mesh.positions[t[1]] - a), scale * (mesh.positions[t[2]] - a)));
+            const Vec3d ab = scale * (mesh.positions[t[1]] - a), ac = scale * (mesh.positions[t[2]] - a);
+            const double longest2 =
+                std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(ac - ab, ac - ab)});
+            sum.area += 0.5 * glm::length(glm::cross(ab, ac));
+            sum.length += std::sqrt(longest2);
         }
-        sums[begin / grain] = 0.5 * sum;
+        sums[begin / grain] = sum;
     });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
+    return std::accumulate(sums.begin(), sums.end(), SurfaceSize{},
+                           [](const SurfaceSize& a, const SurfaceSize& b) {
+                               return SurfaceSize{a.area + b.area, a.length + b.length};
+                           });
 }
 
 float chosen_voxel(float radius, float largest_voxel) {
@@ -103,15 +112,15 @@ float chosen_voxel(float radius, float largest_voxel) {
 }
 
 double triangles_voxelized(double area, std::size_t triangles, double voxel, const GridOptions& options) {
-    return Estimate(area, triangles, options).voxelized(voxel);
+    return Estimate({.area = area}, triangles, options).voxelized(voxel);
 }
 
-double finest_voxel(double area, std::size_t triangles, const GridOptions& options) {
-    return Estimate(area, triangles, options).finest(options.memory_limit);
+double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOptions& options) {
+    return Estimate(size, triangles, options).finest(options.memory_limit);
 }
 
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
-    const Estimate estimate(surface_area(mesh, triangles), triangles.size(), options);
+    const Estimate estimate(surface_size(mesh, triangles), triangles.size(), options);
     const double finest = estimate.finest(options.memory_limit);
     if (!std::isfinite(finest))
         throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));

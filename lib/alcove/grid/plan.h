@@ -35,24 +35,28 @@ struct LevelPlan {
     double bytes = 0.0;     ///< estimate of the peak while building
 };
 
-/// Of the triangles, in the unit space of the mesh's own box.
-double surface_area(const Mesh& mesh, std::span<const Triangle> triangles);
+/// Of triangles, in the unit space of the mesh's own box.
+struct SurfaceSize {
+    double area = 0.0;
+    double length = 0.0; ///< of the longest sides together: what needles are made of
+};
+SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles);
 
 /// Cubes within which vertices become one where a surface is thinned, voxels.
 inline constexpr double thinned_cell = 0.5;
 
-/// How many triangles are voxelized after some are left out as GridOptions::thin has it. `area` as surface_area() has it.
+/// How many triangles are voxelized after some are left out as GridOptions::thin has it.
 double triangles_voxelized(double area, std::size_t triangles, double voxel, const GridOptions& options);
 
 /// The finest voxel that is taken where none is asked for, unit space, unless memory asks for a larger one.
 float chosen_voxel(float radius, float largest_voxel);
 
 /// The finest voxel whose grids and what builds them fit the memory limit, unit space; infinite where the triangles alone
-/// do not. `area` as surface_area() has it.
-double finest_voxel(double area, std::size_t triangles, const GridOptions& options);
+/// do not.
+double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOptions& options);
 
 /// Levels are added until the last band, less its outermost voxel, reaches the radius. Voxels are counted
-/// from area / voxel². A voxel of 0 is coarsened until it fits.
+/// from area / voxel², what long triangles are cut into from their lengths. A voxel of 0 is coarsened until it fits.
 /// \throw LimitError if no voxel fits the limit; if one that was asked for needs more than it or more than 2^20 voxels
 /// along the diagonal, naming the finest that fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);

@@ -92,6 +92,8 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
                             100.0 * leaking));
         return Sign::solid;
     }
+    if (columns.hollow())
+        return Sign::sheet;
     if (sound)
         return Sign::solid;
     if (!shape.closed() || leaking > 0.0)

@@ -4,6 +4,7 @@
 #include "alcove/grid/level_set.h"
 #include "alcove/grid/solidity.h"
 #include "alcove/grid/thinned.h"
+#include "alcove/grid/twins.h"
 #include "alcove/huge_pages.h"
 #include "alcove/parallel.h"
 
@@ -58,7 +59,13 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         check_thinned(plan, thinned->surface().triangles.size(), options.grid);
         stack.thinned = thinned->surface().triangles.size() < triangles.size();
     }
-    const Surface near = thinned ? thinned->surface() : whole;
+    stack.sign = choose_sign(options.sign, mesh, columns, positions, triangles, stack.warnings);
+    Surface near = thinned ? thinned->surface() : whole;
+    std::vector<Triangle> single;
+    if (stack.sign == Sign::sheet) {
+        single = without_twins(near.positions, near.triangles);
+        near.triangles = single;
+    }
     const TriangleTree tree = tree_of(near);
 
     if (plan.voxel > 0.25f * options.grid.radius)
@@ -71,7 +78,6 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         if (options.progress)
             options.progress(share);
     };
-    stack.sign = choose_sign(options.sign, mesh, columns, positions, triangles, stack.warnings);
     std::optional<Pseudonormals> normals;
     if (stack.sign == Sign::sheet)
         normals.emplace(near.positions, near.triangles);

@@ -174,6 +174,19 @@ bool WindingColumns::overlapping() const {
     return found;
 }
 
+bool WindingColumns::hollow() const {
+    constexpr double same_place = 1e-6; // voxels
+    bool found = false;
+    for_each_column([&](std::span<const Crossing> column) {
+        int winding = 0;
+        for (std::size_t i = 0; i + 1 < column.size(); ++i) {
+            winding += column[i].turn;
+            found = found || (winding > 0 && column[i + 1].z - column[i].z > same_place);
+        }
+    });
+    return !found && !crossings_.empty();
+}
+
 void WindingColumns::for_each_crossing(const std::function<void(std::uint32_t, bool)>& visit) const {
     for_each_column([&](std::span<const Crossing> column) {
         int winding = 0;

@@ -29,6 +29,9 @@ class WindingColumns {
     /// Whether the winding number is anything but 0 and 1 somewhere.
     bool overlapping() const;
 
+    /// Whether there are crossings and nothing between them: all faces are there from both sides.
+    bool hollow() const;
+
     /// Calls `visit(triangle, bounding)` for each crossing; bounding are those between a winding number below
     /// 1 and one from 1 on.
     void for_each_crossing(const std::function<void(std::uint32_t triangle, bool bounding)>& visit) const;

@@ -1,0 +1,22 @@
+/// Walls that a grid is too coarse to tell.
+#pragma once
+
+#include "alcove/occlusion/exact.h"
+
+#include <span>
+
+namespace alcove {
+
+struct ThinWalls {
+    double share = 0.0; ///< of the surfels with a normal: how many have another face too near
+    float voxel =
+        0.0f; ///< unit space: nine of ten of those walls are told by a grid that fine; 0 where there are none
+};
+
+/// Looks for faces within one and a half voxels behind surfels, and for those of a sheet within two, in front of them too. Hardly a sample
+/// of the grid is within such a wall, or between such faces of sheets, and rays through the grid pass them; gaps between
+/// solids, however narrow, stop rays. `voxel` in unit space. Cost: a ray for each of up to 4,096 surfels, evenly along the
+/// Morton curve, two where `two_sided`.
+ThinWalls thin_walls(std::span<const Surfel> surfels, const RaySurface& surface, float voxel, bool two_sided);
+
+}
