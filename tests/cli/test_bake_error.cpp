@@ -1,8 +1,10 @@
 #include "baked.h"
+#include "extreme.h"
 #include "program.h"
 
 #include "alcove/accuracy/measure.h"
 #include "alcove/mesh/read.h"
+#include "alcove/mesh/write.h"
 
 #include <cmath>
 
@@ -13,7 +15,7 @@ class BakeError : public ProgramTest {
   protected:
     /// The RMSE of what a bake at a radius of 10 % left, against 1,024 exact rays a vertex.
     double error_of(const std::string& mesh_file, const std::string& output) const {
-        const MeasuredMesh mesh(mesh_file, read_mesh(mesh_file));
+        const MeasuredMesh mesh(mesh_file, read_mesh(folder_ / mesh_file)); // an absolute name is kept
         const Truth truth = make_truth(mesh, 0.1f);
         const std::vector<float> ao = read_baked(folder_ / "work" / output).ao;
         std::vector<float> values;
@@ -64,6 +66,29 @@ TEST_F(BakeError, CountsSurroundingsAndGoesWithOtherAttributes) {
     EXPECT_LE(outcome.json().at("estimated_rmse"), 0.02);
     const Baked baked = read_baked(folder_ / "work/a.ply");
     EXPECT_EQ(baked.ao.size(), 2775u);
+}
+
+/// Rays pass fins thinner than a voxel. The warning names a voxel that stops them, or a method that needs none.
+TEST_F(BakeError, OfThinWallsComesWithTheVoxelThatMendsIt) {
+    write_mesh(extremes::comb(24, 0.5 / 256, 2.0 / 256, true), folder_ / "work/fins.ply");
+    const Outcome coarse = run({"bake", "fins.ply", "-o", "a.ply", "--json"});
+    ASSERT_EQ(coarse.code, done) << coarse.err;
+    EXPECT_GT(error_of("work/fins.ply", "a.ply"), 0.1);
+    const auto warnings = coarse.json().at("warnings");
+    ASSERT_EQ(warnings.size(), 1u);
+    const auto warning = warnings.front().get<std::string>();
+    const auto at = warning.find("--voxel ");
+    ASSERT_NE(at, std::string::npos) << warning;
+    const std::string voxel = warning.substr(at + 8, warning.find(',', at) - at - 8);
+    for (const std::vector<std::string>& mend :
+         {std::vector<std::string>{"--voxel", voxel}, {"--method", "guided"}, {"--error", "0.03"}}) {
+        std::vector<std::string> arguments{"bake", "fins.ply", "-o", "a.ply", "--json"};
+        arguments.insert(arguments.end(), mend.begin(), mend.end());
+        const Outcome mended = run(arguments);
+        ASSERT_EQ(mended.code, done) << mended.err;
+        EXPECT_TRUE(mended.json().at("warnings").empty()) << mended.out;
+        EXPECT_LE(error_of("work/fins.ply", "a.ply"), 0.035) << mend.front();
+    }
 }
 
 TEST_F(BakeError, LeavesNothingElseToChoose) {

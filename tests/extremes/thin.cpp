@@ -1,0 +1,119 @@
+/// Walls and gaps beside the size of a voxel, which is 1/256 of D where none is asked for.
+#include "extreme.h"
+#include "shapes.h"
+
+#include "alcove/accuracy/pilot.h"
+#include "alcove/accuracy/planned_bake.h"
+#include "alcove/errors.h"
+
+#include <fmt/format.h>
+
+namespace alcove::extremes {
+namespace {
+
+constexpr double voxel = 1.0 / 256.0;
+constexpr double bound = 0.035;
+const Methods rays = {"traced", "guided", "exact"};
+
+/// Two boxes one above the other.
+Mesh boxes_apart(double gap) {
+    const Mesh box = test::box_mesh({0.4, 0.3, 0.07}, 24);
+    Mesh both;
+    test::add_part(both, box, 1.0, {0.0, 0.0, -0.07});
+    test::add_part(both, box, 1.0, {0.0, 0.0, 0.07 + gap});
+    return both;
+}
+
+/// A wall on a block, with vertices on all sides.
+Mesh wall_on_block(double thickness) {
+    Mesh both = test::box_mesh({0.4, 0.3, 0.1}, 24);
+    test::add_part(both, test::box_mesh({0.5 * thickness, 0.25, 0.1}, 24), 1.0, {0.0, 0.0, 0.21});
+    return both;
+}
+
+/// Over the bound a warning has to name the voxel that tells the walls, and that voxel has to keep the bound, unless memory
+/// has none for it and the warning names guided alone.
+Result told_or_warned(const Mesh& mesh, const Baking& baking = {}) {
+    Result result = against_exact(mesh, rays, bound, baking);
+    Figure& traced = result.figures.front();
+    const float resolving = Baked(mesh, baking).resolving_voxel();
+    if (traced.holds() || resolving == 0.0f)
+        return result;
+    result.note += fmt::format(" (traced without it: {:.2g})", traced.value);
+    Baking finer = baking;
+    finer.voxel = resolving;
+    try {
+        traced = {"traced, at that voxel",
+                  against_exact(mesh, {"traced"}, bound, finer).figures.front().value, bound};
+    } catch (const LimitError& refusal) {
+        result.figures.erase(result.figures.begin());
+        result.note += std::string("; ") + refusal.what();
+    }
+    return result;
+}
+
+/// The planner's error beside what was asked.
+Result planned(const Mesh& mesh, double error) {
+    const MeasuredMesh measured("mesh", mesh);
+    constexpr float radius = 0.1f;
+    const Pilot pilot(measured.surfels, measured.rays, radius, pilot_for(error));
+    const MakeField make_field = [&](float largest) {
+        VoxelizeOptions options;
+        options.grid.radius = radius;
+        options.grid.largest_voxel = largest;
+        options.grid.thin = true;
+        return AnyField(LevelStack(voxelize(measured.mesh, measured.triangles, options)));
+    };
+    const SurfaceSize size = surface_size(measured.mesh, measured.triangles);
+    const PlannedBake bake =
+        bake_planned(measured.surfels, measured.rays, make_field, pilot,
+                     {.error = error,
+                      .radius = radius,
+                      .surfels = measured.surfels.size(),
+                      .triangles = measured.triangles.size(),
+                      .area = size.area,
+                      .finest_voxel = finest_voxel(size, measured.triangles.size(), {})});
+    const std::vector<float> truth =
+        alcove::bake(measured.surfels, measured.rays, Exact{.radius = radius, .rays = 1024});
+    return {{{bake.plan.choice.label(), compare(bake.values[Channel::ao], truth).rmse, 1.15 * error}},
+            bake.plan.largest_voxel > 0.0f ? fmt::format("voxel {:.2g}", bake.plan.largest_voxel)
+                                           : "no grid"};
+}
+
+}
+
+std::vector<Extreme> thin_features() {
+    std::vector<Extreme> rows;
+    const auto add = [&](std::string name, std::function<Result()> run) {
+        rows.push_back(
+            {"thin", std::move(name),
+             fmt::format("RMSE of {} against exact rays, or a warning with the voxel that gives it", bound),
+             std::move(run)});
+    };
+    for (const double gap : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0})
+        add(fmt::format("gap of {} voxels between boxes", gap),
+            [=] { return told_or_warned(boxes_apart(gap * voxel)); });
+    for (const double gap : {0.1, 0.5, 1.0, 2.0, 4.0})
+        add(fmt::format("slot of {} voxels", gap),
+            [=] { return told_or_warned(comb(2, 0.35, gap * voxel, true)); });
+    for (const double wall : {0.01, 0.1, 0.5, 1.0, 2.0})
+        add(fmt::format("wall of {} voxels on a block", wall),
+            [=] { return told_or_warned(wall_on_block(wall * voxel)); });
+    for (const double gap : {0.5, 2.0, 4.0})
+        for (const double wall : {0.25, 0.5, 1.0, 1.5, 2.0})
+            add(fmt::format("24 fins of {} voxels, {} apart", wall, gap),
+                [=] { return told_or_warned(comb(24, wall * voxel, gap * voxel, true)); });
+    for (const double gap : {1.0, 4.0})
+        for (const double wall : {0.5, 1.0, 2.0})
+            add(fmt::format("24 fins of {} voxels, {} apart, as a sheet", wall, gap), [=] {
+                return told_or_warned(comb(24, wall * voxel, gap * voxel, true), {.sign = SignChoice::sheet});
+            });
+    for (const double error : {0.05, 0.02})
+        for (const double wall : {0.25, 1.0})
+            rows.push_back({"thin", fmt::format("24 fins of {} voxels, --error {}", wall, error),
+                            "the RMSE that was asked for, within 15 %",
+                            [=] { return planned(comb(24, wall * voxel, 2.0 * voxel, true), error); }});
+    return rows;
+}
+
+}
