@@ -18,7 +18,7 @@ Needs BakeTask::needs() const {
 std::string thin_wall_warning(double rmse, const Method& method, std::span<const Surfel> surfels,
                               const Occluders& occluders, double diagonal, double finest_voxel) {
     constexpr double small_rmse = 0.03, few = 0.005;
-    if (rmse <= small_rmse || !method.asks_field || method.asks_rays)
+    if (rmse <= small_rmse || method.asks_rays || !method.has_parameter("rays"))
         return {};
     const AnyField& field = occluders.field();
     const ThinWalls walls = thin_walls(surfels, occluders.rays(), resolution(field), two_sided(field));

@@ -207,8 +207,8 @@ TEST_F(BakeSurroundings, GivesTheSameBytesWithAnyNumberOfThreads) {
     for (const bool self : {false, true}) {
         std::vector<std::string> results;
         for (const char* threads : {"1", "3"}) {
-            std::vector<std::string> arguments{"pair.ply", "--occluder", "sphere.ply", "--ground",
-                                               "--voxel",  "1%",         "--threads",  threads};
+            std::vector<std::string> arguments{"pair.ply", "--occluder", "sphere.ply", "--ground", "--voxel",
+                                               "1%",       "--threads",  threads,      "--quiet"};
             if (self)
                 arguments.emplace_back("--self");
             bake(arguments);
