@@ -6,6 +6,8 @@ set(alcove_internal_headers
     atomic_file.h
     edit_distance.h
     grid/band.h
+    grid/distances.h
+    grid/grid_checksum.h
     grid/leaf_search-inl.h
     grid/level_set.h
     grid/lanes-inl.h

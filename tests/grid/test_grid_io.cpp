@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 #include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
@@ -18,6 +19,8 @@
 
 namespace alcove {
 namespace {
+
+namespace io = openvdb::io;
 
 class GridFile : public testing::Test {
   protected:
@@ -33,7 +36,7 @@ class GridFile : public testing::Test {
 
     void write_foreign(const openvdb::GridBase::Ptr& grid, const std::string& name,
                        std::uint32_t compression) const {
-        openvdb::io::File file(path(name).string());
+        io::File file(path(name).string());
         file.setCompression(compression);
         file.write(openvdb::GridPtrVec{grid});
     }
@@ -84,7 +87,7 @@ TEST_F(GridFile, AStackComesBackToTheBit) {
 
 TEST_F(GridFile, OthersFindLevelSetsInSceneUnits) {
     write_grids(sphere_stack(10.0, {100, 0, 0}), path("stack.vdb"));
-    openvdb::io::File file(path("stack.vdb").string());
+    io::File file(path("stack.vdb").string());
     file.open();
     for (const char* name : {"surface", "surface_2", "surface_3"}) {
         const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(name));
@@ -102,7 +105,7 @@ TEST_F(GridFile, OthersFindLevelSetsInSceneUnits) {
 TEST_F(GridFile, ALevelSetOfAnotherProgramIsAField) {
     const auto sphere =
         openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
-    write_foreign(sphere, "foreign.vdb", openvdb::io::COMPRESS_ZIP);
+    write_foreign(sphere, "foreign.vdb", io::COMPRESS_ZIP);
     const GridStack stack = read_grids(path("foreign.vdb"));
     ASSERT_EQ(stack.levels.size(), 1u);
     const LevelStack field(stack);
@@ -192,6 +195,78 @@ TEST_F(GridFile, LengthsOfValuesAreNotBelieved) {
             refused += refusal("damaged.vdb") != "read";
         }
         EXPECT_GT(refused, 0) << compression; // and nothing is written beyond its room
+    }
+}
+
+TEST_F(GridFile, WhatIsChangedBehindOurBackIsFound) {
+    write_grids(sphere_stack(), path("stack.vdb"));
+    io::File file(path("stack.vdb").string());
+    file.open(/*delayLoad=*/false);
+    const openvdb::GridPtrVec grids = *file.getGrids();
+    file.close();
+    ASSERT_EQ(grids.size(), 3u);
+
+    io::File(path("fewer.vdb").string()).write(openvdb::GridPtrVec{grids[0], grids[2]});
+    EXPECT_NE(refusal("fewer.vdb").find("2 of the 3 levels"), std::string::npos) << refusal("fewer.vdb");
+
+    const auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grids[1]);
+    const auto voxel = floats->tree().cbeginLeaf()->cbeginValueOn().getCoord();
+    const float value = floats->tree().getValue(voxel);
+    floats->tree().setValueOnly(voxel, std::nextafter(value, 1.0f));
+    write_foreign(floats, "edited.vdb", 0);
+    EXPECT_NE(refusal("edited.vdb").find("its checksum"), std::string::npos);
+    floats->tree().setValueOnly(voxel, value);
+
+    floats->insertMeta("alcove:sign", openvdb::StringMetadata("sheet"));
+    write_foreign(floats, "sheet.vdb", 0);
+    EXPECT_NE(refusal("sheet.vdb").find("its checksum"), std::string::npos);
+
+    // Written before there were checksums.
+    for (const auto& grid : grids)
+        for (const char* name : {"alcove:checksum", "alcove:levels"})
+            grid->removeMeta(name);
+    io::File(path("older.vdb").string()).write(grids);
+    EXPECT_EQ(refusal("older.vdb"), "read");
+}
+
+TEST_F(GridFile, ValuesThatAreNoDistancesAreSaid) {
+    const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    const openvdb::Coord on_surface(10, 0, 0);
+    sphere->tree().setValueOnly(on_surface, 0.2f);
+    write_foreign(sphere, "bump.vdb", 0);
+    const GridStack stack = read_grids(path("bump.vdb"));
+    ASSERT_EQ(stack.warnings.size(), 1u);
+    EXPECT_NE(stack.warnings.front().find("no distances"), std::string::npos) << stack.warnings.front();
+    sphere->tree().setValueOnly(on_surface, 1e30f);
+    write_foreign(sphere, "far.vdb", 0);
+    EXPECT_NE(refusal("far.vdb").find("larger than the grid is wide"), std::string::npos);
+}
+
+TEST_F(GridFile, GridsOfOtherTypesArePassedOver) {
+    const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    const auto vectors = openvdb::Vec3SGrid::create();
+    vectors->fill({{0, 0, 0}, {50, 50, 50}}, {1, 2, 3});
+    vectors->setName("vectors");
+    io::File(path("both.vdb").string()).write(openvdb::GridPtrVec{vectors, sphere});
+    EXPECT_EQ(refusal("both.vdb"), "read");
+
+    // In a stream nothing tells where they end.
+    std::ofstream stream(path("stream.vdb"), std::ios::binary);
+    io::Stream(stream).write(openvdb::GridPtrVec{vectors, sphere});
+    stream.close();
+    EXPECT_NE(refusal("stream.vdb").find("write it as a file"), std::string::npos) << refusal("stream.vdb");
+    stream.open(path("stream.vdb"), std::ios::binary);
+    io::Stream(stream).write(openvdb::GridPtrVec{sphere, sphere->copy()}); // which share a tree
+    stream.close();
+    EXPECT_EQ(refusal("stream.vdb"), "read");
+}
+
+TEST_F(GridFile, HalvedValuesAreRead) {
+    const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    sphere->setSaveFloatAsHalf(true);
+    for (const std::uint32_t compression : {0u, 2u, 4u, 6u}) {
+        write_foreign(sphere, "half.vdb", compression);
+        EXPECT_EQ(refusal("half.vdb"), "read") << compression;
     }
 }
 

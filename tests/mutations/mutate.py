@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Renders scene files and level sets with random damage, and tells what ends otherwise than it should.
+"""Renders scene files and level sets with random damage, or asks what they hold, and tells what ends otherwise than it
+should.
 
     mutate.py PROGRAM SCENES.toml... [--count 2000] [--seed 1]
 
@@ -126,9 +127,10 @@ def main():
         else:
             name, data = "mutant.vdb", damage_bytes(level_set, rng)
             arguments = drawing
+        verb = ["info", name] if name.endswith(".vdb") and rng.random() < 0.5 else ["render", name] + arguments
         with open(os.path.join(folder, name), "wb") as mutant:
             mutant.write(data)
-        wrong = run([program, "render", name] + arguments, folder)
+        wrong = run([program] + verb, folder)
         if wrong:
             failures += 1
             kept = "failure_%d_%s" % (i, name)

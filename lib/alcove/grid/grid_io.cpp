@@ -2,6 +2,8 @@
 
 #include "alcove/atomic_file.h"
 #include "alcove/errors.h"
+#include "alcove/grid/distances.h"
+#include "alcove/grid/grid_checksum.h"
 #include "alcove/grid/vdb.h"
 #include "alcove/grid/vdb_lengths.h"
 #include "alcove/mesh/mesh.h"
@@ -9,7 +11,7 @@
 
 #include <fmt/format.h>
 #include <openvdb/io/File.h>
-#include <openvdb/io/Stream.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
@@ -24,6 +26,7 @@ using openvdb::FloatGrid;
 namespace io = openvdb::io;
 
 constexpr const char* creator = "Alcove";
+constexpr const char* checksum_name = "alcove:checksum";
 
 std::string level_name(std::size_t level) {
     return level == 0 ? "surface" : fmt::format("surface_{}", level + 1);
@@ -33,21 +36,45 @@ std::string level_name(std::size_t level) {
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
+/// Reads the grids of floats of a file, and passes over those of other types.
+class FloatGridReader : public io::Archive {
+  public:
+    std::vector<FloatGrid::Ptr> read(std::istream& stream) {
+        readHeader(stream);
+        auto state = std::make_shared<io::StreamMetadata>();
+        io::setStreamMetadataPtr(stream, state, /*transfer=*/false);
+        setFormatVersion(stream);
+        setLibraryVersion(stream);
+        openvdb::MetaMap().readMeta(stream);
+        std::vector<FloatGrid::Ptr> grids;
+        NamedGridMap named;
+        for (std::int32_t left = readGridCount(stream); left > 0; --left) {
+            io::GridDescriptor descriptor;
+            const auto grid = openvdb::gridPtrCast<FloatGrid>(descriptor.read(stream));
+            if (grid) {
+                readGrid(grid, descriptor, stream);
+                named[descriptor.uniqueName()] = grid;
+                connectInstance(descriptor, named);
+                grids.push_back(grid);
+            } else {
+                descriptor.seekToEnd(stream);
+            }
+        }
+        return grids;
+    }
+};
+
 /// All float grids of the file; the stream's own state tells a truncated file, which OpenVDB does not.
 std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file))
         refuse(file, "cannot be opened for reading: check the name");
     check_vdb_lengths(file);
-    std::vector<FloatGrid::Ptr> grids;
     try {
         openvdb::initialize();
         // Else a count that is damaged is counted to the end.
         stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-        io::Stream archive(stream, /*delayLoad=*/false);
-        for (const openvdb::GridBase::Ptr& grid : *archive.getGrids())
-            if (auto floats = openvdb::gridPtrCast<FloatGrid>(grid))
-                grids.push_back(std::move(floats));
+        return FloatGridReader().read(stream);
     } catch (const std::ios_base::failure&) {
         refuse(file, "ends early: the file is truncated or damaged, write it again");
     } catch (const std::exception& error) {
@@ -58,7 +85,6 @@ std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
             reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
         refuse(file, fmt::format("is no readable .vdb file ({}): write it again", reason));
     }
-    return grids;
 }
 
 /// Every value finite, and as many as were written.
@@ -71,10 +97,11 @@ void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
     grid.tree().getNodes(leaves);
     std::atomic<std::size_t> bad{std::isfinite(grid.background()) ? 0u : 1u};
     parallel_for(leaves.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = begin; l < end; ++l)
-            for (auto value = leaves[l]->cbeginValueAll(); value; ++value)
-                if (!std::isfinite(*value))
-                    ++bad;
+        for (std::size_t l = begin; l < end; ++l) {
+            const float* const values = leaves[l]->buffer().data();
+            bad += static_cast<std::size_t>(std::count_if(values, values + leaves[l]->SIZE,
+                                                          [](float value) { return !std::isfinite(value); }));
+        }
     });
     if (bad > 0)
         refuse(file, fmt::format("grid '{}' holds {} values that are not finite numbers: the file is damaged",
@@ -121,8 +148,35 @@ double number(const FloatGrid& grid, const char* name) {
     return meta ? meta->value() : std::nan("");
 }
 
+/// What was written before checksums, too.
 bool is_ours(const FloatGrid& grid) {
-    return grid.getCreator() == creator && number(grid, "alcove:diagonal") > 0.0;
+    return grid[checksum_name] || (grid.getCreator() == creator && number(grid, "alcove:diagonal") > 0.0);
+}
+
+void verify(const FloatGrid::Ptr& grid, const std::filesystem::path& file) {
+    const auto written = grid->getMetadata<openvdb::Int64Metadata>(checksum_name);
+    if ((*grid)[checksum_name] && (!written || written->value() != checksum_of({grid})))
+        refuse(file,
+               fmt::format("grid '{}' is not as alcove wrote it, as its checksum tells: the file is damaged "
+                           "or was changed, write it again",
+                           grid->getName()));
+}
+
+/// What is no distance is said, and refused where it is none of this grid.
+void doubt(const FloatGrid::Ptr& grid, const std::filesystem::path& file,
+           std::vector<std::string>& warnings) {
+    const Doubts doubts = doubts_of({grid}, grid->voxelSize().x());
+    if (doubts.far > 0)
+        refuse(file,
+               fmt::format(
+                   "grid '{}' holds {} values that are larger than the grid is wide, which no distances are: "
+                   "the file is damaged, write it again",
+                   grid->getName(), doubts.far));
+    if (doubts.odd > 0)
+        warnings.push_back(fmt::format("grid '{}' has {} of {} active voxels whose values are no distances "
+                                       "beside those of their neighbours: "
+                                       "errors of the program that made them, or of a damaged file",
+                                       grid->getName(), doubts.odd, grid->activeVoxelCount()));
 }
 
 GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
@@ -135,9 +189,15 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     if (!is_finite(stack.frame.center) || !std::isfinite(stack.frame.diagonal))
         refuse(file, "has lost part of its alcove metadata: write it again");
     stack.value_unit = value_unit_of(stack.frame);
+    if (const double levels = number(finest, "alcove:levels");
+        levels > 0.0 && levels != static_cast<double>(grids.size()))
+        refuse(file, fmt::format("holds {} of the {} levels that alcove wrote: write it again", grids.size(),
+                                 levels));
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
+        if (!(*grid)[checksum_name] && stack.sign == Sign::solid) // sheets jump where they turn to air
+            doubt(grid, file, stack.warnings);
         LevelSet level = level_of(grid, stack, file);
         const double voxel = number(*grid, "alcove:voxel");
         if (!(std::fabs(voxel - double(level.voxel)) <= 1e-5 * voxel))
@@ -161,49 +221,26 @@ bool has_inside(const FloatGrid& grid) {
     return false;
 }
 
-/// How much values change along a unit of length where they are near 0: 1 for distances in scene units. The median of some
-/// thousand voxels.
-double slope_of(const FloatGrid& grid, double voxel) {
-    constexpr std::size_t enough = 4096;
-    std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
-    grid.tree().getNodes(leaves);
-    const std::size_t stride = leaves.size() / enough + 1;
-    const auto reader = grid.getConstAccessor();
-    std::vector<double> slopes;
-    for (std::size_t l = 0; l < leaves.size(); l += stride)
-        for (auto value = leaves[l]->cbeginValueOn(); value; ++value) {
-            const openvdb::Coord at = value.getCoord();
-            if ((*value < 0.0f) == (reader.getValue(at.offsetBy(1, 0, 0)) < 0.0f) &&
-                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 1, 0)) < 0.0f) &&
-                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 0, 1)) < 0.0f))
-                continue;
-            Vec3d gradient;
-            for (int axis = 0; axis < 3; ++axis) {
-                openvdb::Coord step;
-                step[axis] = 1;
-                gradient[axis] = double(reader.getValue(at + step)) - double(reader.getValue(at - step));
-            }
-            slopes.push_back(0.5 * glm::length(gradient) / voxel);
-            break;
-        }
-    if (slopes.empty())
-        return 1.0;
-    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-    std::nth_element(slopes.begin(), middle, slopes.end());
-    return *middle;
-}
-
 /// Distances in another unit, such as voxels, are brought to that of the scene.
-void scale_to_scene(FloatGrid& grid, std::vector<std::string>& warnings) {
-    const double slope = slope_of(grid, grid.voxelSize().x());
+void scale_to_scene(const FloatGrid::Ptr& grid, std::vector<std::string>& warnings) {
+    const double slope = slope_of({grid}, grid->voxelSize().x());
     constexpr double alike = 1.3; // smoothing changes less
     if (!(slope > 0.0) || (slope < alike && slope > 1.0 / alike))
         return;
-    scale_values(grid, 1.0 / slope);
+    scale_values(*grid, 1.0 / slope);
     warnings.push_back(
         fmt::format("grid '{}' has values that change by {:.3g} a unit of length: they are taken for "
                     "distances in another unit, and divided by that",
-                    grid.getName(), slope));
+                    grid->getName(), slope));
+}
+
+/// Active voxels where the file says that they are.
+void check_place(const FloatGrid& grid, const openvdb::CoordBBox& voxels, const std::filesystem::path& file) {
+    const auto low = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_min"),
+               high = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_max");
+    if (low && high && (voxels.min().asVec3i() != low->value() || voxels.max().asVec3i() != high->value()))
+        refuse(file, fmt::format("grid '{}' has its voxels elsewhere than it announces: the file is damaged",
+                                 grid.getName()));
 }
 
 GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
@@ -222,8 +259,10 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     openvdb::tools::signedFloodFill((*chosen)->tree());
     (*chosen)->setGridClass(openvdb::GRID_LEVEL_SET);
     std::vector<std::string> warnings;
-    scale_to_scene(**chosen, warnings);
+    scale_to_scene(*chosen, warnings);
+    doubt(*chosen, file, warnings);
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
+    check_place(**chosen, voxels, file);
     const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
     Box box;
     box.add({scene.min().x(), scene.min().y(), scene.min().z()});
@@ -232,6 +271,10 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     stack.creator = (*chosen)->getCreator();
     stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
+    if (!(glm::length(stack.frame.center) < 1e12 * (*chosen)->voxelSize().x()))
+        refuse(file, fmt::format(
+                         "grid '{}' lies so far from the origin that its voxels are not told apart: move it",
+                         (*chosen)->getName()));
     stack.levels.push_back(level_of(*chosen, stack, file));
     stack.warnings = std::move(warnings);
     return stack;
@@ -275,11 +318,13 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         put("alcove:center_y", stack.frame.center.y);
         put("alcove:center_z", stack.frame.center.z);
         put("alcove:diagonal", stack.frame.diagonal);
+        put("alcove:levels", static_cast<double>(stack.levels.size()));
         put("alcove:voxel", level.voxel);
         put("alcove:outer_band", level.outer_band);
         put("alcove:inner_band", level.inner_band);
         grid->insertMeta("alcove:sign",
                          openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
+        grid->insertMeta(checksum_name, openvdb::Int64Metadata(checksum_of({grid})));
         grids.push_back(grid);
     }
     AtomicFile out(file);
@@ -289,7 +334,8 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         archive.write(grids);
         archive.close();
         // OpenVDB does not notice a full disk: only what can be read again takes the place of the old file.
-        read_all(out.temporary());
+        for (const FloatGrid::Ptr& grid : read_all(out.temporary()))
+            verify(grid, out.temporary());
     } catch (const std::exception& error) {
         throw IoError(
             fmt::format("{}: cannot be written whole, is the disk full? ({})", file.string(), error.what()));
@@ -309,6 +355,8 @@ GridStack read_grids(const std::filesystem::path& file) {
     std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) {
         return number(*a, "alcove:voxel") < number(*b, "alcove:voxel");
     });
+    for (const FloatGrid::Ptr& grid : ours)
+        verify(grid, file);
     try {
         return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
     } catch (const openvdb::Exception&) {

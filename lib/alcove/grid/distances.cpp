@@ -1,0 +1,167 @@
+#include "alcove/grid/distances.h"
+
+#include "alcove/grid/vdb.h"
+#include "alcove/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace alcove {
+namespace {
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+constexpr int edge = 8;
+static_assert(Leaf::DIM == edge);
+constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // of voxels along x, y and z
+
+/// Quickly, as most pieces of most grids are.
+bool is_smooth(const float* values, float step, float farthest) {
+    int steps = 0;
+    const auto count = [&](int v, int stride) {
+        steps += int(std::fabs(values[v] - values[v + stride]) > step);
+    };
+    for (int v = 0; v < int(Leaf::SIZE); ++v)
+        steps += int(std::fabs(values[v]) > farthest);
+    for (int v = 0; v < int(Leaf::SIZE) - strides[0]; ++v)
+        count(v, strides[0]);
+    for (int x = 0; x < edge; ++x)
+        for (int v = x * strides[0]; v < (x + 1) * strides[0] - strides[1]; ++v)
+            count(v, strides[1]);
+    for (int row = 0; row < edge * edge; ++row)
+        for (int v = row * edge; v < row * edge + edge - 1; ++v)
+            count(v, strides[2]);
+    return steps == 0;
+}
+
+class Doubter {
+  public:
+    Doubter(const FloatGrid& grid, double voxel)
+        : reader_(grid.getConstAccessor()), small_step_(static_cast<float>(1.15 * voxel)),
+          large_step_(static_cast<float>(1.5 * voxel)), near_(static_cast<float>(2.0 * voxel)),
+          farthest_(1.001f * grid.background()) {
+        openvdb::CoordBBox leaves;
+        grid.tree().evalLeafBoundingBox(leaves);
+        widest_ = static_cast<float>(voxel * leaves.extents().asVec3d().length());
+    }
+
+    Doubts look_at(const Leaf& leaf) {
+        Doubts doubts;
+        if (is_smooth_within_others(leaf))
+            return doubts;
+        for (auto value = leaf.cbeginValueOn(); value; ++value)
+            if (is_odd(*value, value.getCoord())) {
+                ++doubts.odd;
+                doubts.far += std::fabs(*value) > widest_;
+            }
+        return doubts;
+    }
+
+  private:
+    /// Active or not: no small step to neighbours, and nothing beyond the background.
+    bool is_smooth_within_others(const Leaf& leaf) {
+        if (!is_smooth(leaf.buffer().data(), small_step_, farthest_))
+            return false;
+        int steps = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1})
+                steps += steps_across(leaf, axis, side);
+        return steps == 0;
+    }
+    int steps_across(const Leaf& leaf, int axis, int side) {
+        Coord beyond = leaf.origin();
+        beyond[axis] += side * edge;
+        const Leaf* const other = reader_.probeConstLeaf(beyond);
+        const float tile = other ? 0.0f : reader_.getValue(beyond);
+        const int stride = strides[std::size_t(axis)], row = strides[axis == 2 ? 1 : 2],
+                  column = strides[axis == 0 ? 1 : 0];
+        const int near = side > 0 ? (edge - 1) * stride : 0, far = (edge - 1) * stride - near;
+        int steps = 0;
+        for (int a = 0; a < edge; ++a)
+            for (int b = 0; b < edge; ++b) {
+                const int v = a * column + b * row;
+                const float value = other ? other->buffer().data()[v + far] : tile;
+                steps += int(std::fabs(leaf.buffer().data()[v + near] - value) > small_step_);
+            }
+        return steps;
+    }
+    bool is_odd(float value, const Coord& at) {
+        const bool near = std::fabs(value) < near_;
+        int steps = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1}) {
+                Coord beside = at;
+                beside[axis] += side;
+                float other = 0.0f;
+                const bool active = reader_.probeValue(beside, other);
+                float step = std::fabs(value - other);
+                if (!active && (value < 0.0f) != (other < 0.0f))
+                    step = std::fabs(value);
+                else if (!active && value < 0.0f)
+                    step = 0.0f; // bands are not always as wide inward as the background says
+                steps += int(step > small_step_) + int(near && step > large_step_);
+            }
+        return steps >= (near ? 2 : 3) || std::fabs(value) > farthest_;
+    }
+
+    FloatGrid::ConstAccessor reader_;
+    float small_step_, large_step_, near_, farthest_, widest_;
+};
+
+}
+
+double slope_of(const VdbGrid& level, double voxel) {
+    const FloatGrid& grid = *level.grid;
+    constexpr std::size_t enough = 4096;
+    std::vector<const Leaf*> leaves;
+    grid.tree().getNodes(leaves);
+    const std::size_t stride = leaves.size() / enough + 1;
+    const auto reader = grid.getConstAccessor();
+    std::vector<double> slopes;
+    for (std::size_t l = 0; l < leaves.size(); l += stride)
+        for (auto value = leaves[l]->cbeginValueOn(); value; ++value) {
+            const Coord at = value.getCoord();
+            if ((*value < 0.0f) == (reader.getValue(at.offsetBy(1, 0, 0)) < 0.0f) &&
+                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 1, 0)) < 0.0f) &&
+                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 0, 1)) < 0.0f))
+                continue;
+            Vec3d gradient;
+            for (int axis = 0; axis < 3; ++axis) {
+                Coord step;
+                step[axis] = 1;
+                gradient[axis] = double(reader.getValue(at + step)) - double(reader.getValue(at - step));
+            }
+            slopes.push_back(0.5 * glm::length(gradient) / voxel);
+            break;
+        }
+    if (slopes.empty())
+        return 1.0;
+    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+    std::nth_element(slopes.begin(), middle, slopes.end());
+    return *middle;
+}
+
+Doubts doubts_of(const VdbGrid& level, double voxel) {
+    const FloatGrid& grid = *level.grid;
+    std::vector<const Leaf*> leaves;
+    grid.tree().getNodes(leaves);
+    std::atomic<std::size_t> odd{0}, far{0};
+    const Doubter doubter(grid, voxel);
+    parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
+        Doubter own = doubter;
+        for (std::size_t l = begin; l < end; ++l) {
+            const Doubts doubts = own.look_at(*leaves[l]);
+            odd += doubts.odd;
+            far += doubts.far;
+        }
+    });
+    return {odd, far};
+}
+
+}
