@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace alcove {
@@ -22,10 +24,10 @@ static_assert(Leaf::DIM == edge);
 constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // of voxels along x, y and z
 
 /// Quickly, as most pieces of most grids are.
-bool is_smooth(const float* values, float step, float farthest) {
+bool is_smooth(const float* values, float step, float farthest, float deepest) {
     int steps = 0;
     const auto count = [&](int v, int stride) {
-        steps += int(std::fabs(values[v] - values[v + stride]) > step);
+        steps += int(std::fabs(std::max(values[v], deepest) - std::max(values[v + stride], deepest)) > step);
     };
     for (int v = 0; v < int(Leaf::SIZE); ++v)
         steps += int(std::fabs(values[v]) > farthest);
@@ -40,12 +42,32 @@ bool is_smooth(const float* values, float step, float farthest) {
     return steps == 0;
 }
 
+/// The deepest value within the band: those outside it are of the background. Bands are not always as wide inward as
+/// outward.
+float deepest_of(const FloatGrid& grid, const std::vector<const Leaf*>& leaves) {
+    std::vector<std::int32_t> depths(leaves.size());
+    const float background = grid.background();
+    parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t l = begin; l < end; ++l) {
+            const float* const values = leaves[l]->buffer().data();
+            std::int32_t deepest = 0; // as bits, which are ordered as floats above 0 are
+            for (int v = 0; v < int(Leaf::SIZE); ++v) {
+                const float inward = -values[v];
+                const std::int32_t within = inward < background ? std::bit_cast<std::int32_t>(inward) : 0;
+                deepest = std::max(deepest, within);
+            }
+            depths[l] = deepest;
+        }
+    });
+    return depths.empty() ? 0.0f : -std::bit_cast<float>(*std::max_element(depths.begin(), depths.end()));
+}
+
 class Doubter {
   public:
-    Doubter(const FloatGrid& grid, double voxel)
+    Doubter(const FloatGrid& grid, float deepest, double voxel)
         : reader_(grid.getConstAccessor()), small_step_(static_cast<float>(1.15 * voxel)),
           large_step_(static_cast<float>(1.5 * voxel)), near_(static_cast<float>(2.0 * voxel)),
-          farthest_(1.001f * grid.background()) {
+          farthest_(1.001f * grid.background()), deepest_(deepest) {
         openvdb::CoordBBox leaves;
         grid.tree().evalLeafBoundingBox(leaves);
         widest_ = static_cast<float>(voxel * leaves.extents().asVec3d().length());
@@ -56,7 +78,7 @@ class Doubter {
         if (is_smooth_within_others(leaf))
             return doubts;
         for (auto value = leaf.cbeginValueOn(); value; ++value)
-            if (is_odd(*value, value.getCoord())) {
+            if (is_odd(leaf, *value, value.getCoord())) {
                 ++doubts.odd;
                 doubts.far += std::fabs(*value) > widest_;
             }
@@ -66,32 +88,35 @@ class Doubter {
   private:
     /// Active or not: no small step to neighbours, and nothing beyond the background.
     bool is_smooth_within_others(const Leaf& leaf) {
-        if (!is_smooth(leaf.buffer().data(), small_step_, farthest_))
+        if (!is_smooth(leaf.buffer().data(), small_step_, farthest_, deepest_))
             return false;
         int steps = 0;
-        for (int axis = 0; axis < 3; ++axis)
-            for (const int side : {-1, 1})
-                steps += steps_across(leaf, axis, side);
+        for (const int side : {-1, 1})
+            steps += steps_across<0>(leaf, side) + steps_across<1>(leaf, side) + steps_across<2>(leaf, side);
         return steps == 0;
     }
-    int steps_across(const Leaf& leaf, int axis, int side) {
+    template <int axis>
+    int steps_across(const Leaf& leaf, int side) {
         Coord beyond = leaf.origin();
         beyond[axis] += side * edge;
         const Leaf* const other = reader_.probeConstLeaf(beyond);
         const float tile = other ? 0.0f : reader_.getValue(beyond);
-        const int stride = strides[std::size_t(axis)], row = strides[axis == 2 ? 1 : 2],
-                  column = strides[axis == 0 ? 1 : 0];
-        const int near = side > 0 ? (edge - 1) * stride : 0, far = (edge - 1) * stride - near;
+        constexpr int last = (edge - 1) * strides[axis];
+        const float* const own = leaf.buffer().data() + (side > 0 ? last : 0);
+        const float* const others = other ? other->buffer().data() + (side > 0 ? 0 : last) : nullptr;
+        constexpr int row = strides[axis == 2 ? 1 : 2], column = strides[axis == 0 ? 1 : 0];
         int steps = 0;
         for (int a = 0; a < edge; ++a)
             for (int b = 0; b < edge; ++b) {
                 const int v = a * column + b * row;
-                const float value = other ? other->buffer().data()[v + far] : tile;
-                steps += int(std::fabs(leaf.buffer().data()[v + near] - value) > small_step_);
+                steps += is_step(own[v], others ? others[v] : tile);
             }
         return steps;
     }
-    bool is_odd(float value, const Coord& at) {
+    int is_step(float a, float b) const {
+        return int(std::fabs(std::max(a, deepest_) - std::max(b, deepest_)) > small_step_);
+    }
+    bool is_odd(const Leaf& leaf, float value, const Coord& at) {
         const bool near = std::fabs(value) < near_;
         int steps = 0;
         for (int axis = 0; axis < 3; ++axis)
@@ -99,19 +124,20 @@ class Doubter {
                 Coord beside = at;
                 beside[axis] += side;
                 float other = 0.0f;
-                const bool active = reader_.probeValue(beside, other);
-                float step = std::fabs(value - other);
-                if (!active && (value < 0.0f) != (other < 0.0f))
-                    step = std::fabs(value);
-                else if (!active && value < 0.0f)
-                    step = 0.0f; // bands are not always as wide inward as the background says
+                const bool within = at[axis] >> Leaf::LOG2DIM == beside[axis] >> Leaf::LOG2DIM;
+                const bool active =
+                    within ? leaf.probeValue(beside, other) : reader_.probeValue(beside, other);
+                const bool is_other_side = !active && (value < 0.0f) != (other < 0.0f);
+                const float step = is_other_side
+                                       ? std::fabs(value)
+                                       : std::fabs(std::max(value, deepest_) - std::max(other, deepest_));
                 steps += int(step > small_step_) + int(near && step > large_step_);
             }
         return steps >= (near ? 2 : 3) || std::fabs(value) > farthest_;
     }
 
     FloatGrid::ConstAccessor reader_;
-    float small_step_, large_step_, near_, farthest_, widest_;
+    float small_step_, large_step_, near_, farthest_, deepest_, widest_;
 };
 
 }
@@ -152,7 +178,7 @@ Doubts doubts_of(const VdbGrid& level, double voxel) {
     std::vector<const Leaf*> leaves;
     grid.tree().getNodes(leaves);
     std::atomic<std::size_t> odd{0}, far{0};
-    const Doubter doubter(grid, voxel);
+    const Doubter doubter(grid, deepest_of(grid, leaves), voxel);
     parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
         Doubter own = doubter;
         for (std::size_t l = begin; l < end; ++l) {
