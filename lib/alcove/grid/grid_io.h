@@ -17,13 +17,13 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file);
 /// class level set (or, without one, the first float grid with a background above 0) as a single level
 /// in the frame of its active voxels, whatever its transform as long as its voxels are cubes along the axes.
 ///
-/// Damage of a stack with checksums is found, but for one time in 2³². A file of another program is refused where lengths,
-/// masks, places or counts contradict each other, zipped values do not unpack, values are not finite or are larger
-/// than the grid is wide; where values are no distances beside those of their neighbours, `GridStack::warnings` counts
-/// them. What such a file says once, nothing checks: where the grid lies, and values that are off by less than about a voxel.
-/// The same holds of a stack written before there were checksums, and of values of solids alone. Grids of other types than
-/// float are passed over. Thread-safe; by threads of parallel_for. Cost: beside that of
-/// OpenVDB, the file is read once before, and its zipped values unpacked.
+/// Damage of a stack with checksums is found, but for one time in 2³². A file of another program is refused where
+/// lengths, masks, places or counts contradict each other, zipped values do not unpack, values are not finite or are
+/// larger than the grid is wide; where values are no distances beside those of their neighbours,
+/// `GridStack::warnings` counts them. What such a file says but once is not checked: where the grid lies, and values
+/// that are off by less than about a voxel. The same holds of a stack written before there were checksums, and of the
+/// values of solids alone. Grids of other types than float are passed over. Thread-safe; by threads of parallel_for.
+/// Cost: beside that of OpenVDB, the file is read once before, and its zipped values are unpacked.
 ///
 /// \throw InputError naming what is wrong: no .vdb file, damaged, changed since it was written, no level set in it,
 /// voxels that are no cubes, a file that cannot be opened.
