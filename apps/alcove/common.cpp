@@ -1,5 +1,7 @@
 #include "common.h"
 
+#include "ending.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,6 +29,15 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
             },
             "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
         ->option_text("MODE");
+    verb.add_option_function<double>(
+            "--time-limit",
+            [](const double& seconds) {
+                if (!(seconds > 0.0 && seconds <= 1e9))
+                    throw UsageError(fmt::format("--time-limit takes seconds above 0, not '{:g}'", seconds));
+                limit_time(seconds);
+            },
+            "End with exit code 1 after that many seconds, and leave files as they were")
+        ->option_text("SECONDS");
     verb.add_flag("--quiet", options.quiet, "Neither progress nor warnings");
     verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
 }

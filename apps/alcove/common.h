@@ -30,7 +30,7 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
 };
 
-/// Adds --threads, --progress, --quiet, --version to a verb.
+/// Adds --threads, --progress, --time-limit, --quiet, --version to a verb.
 void add_run_options(CLI::App& verb, CommonOptions& options);
 
 /// Those and --json.

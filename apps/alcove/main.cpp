@@ -1,5 +1,6 @@
 #include "command_line.h"
 #include "common.h"
+#include "ending.h"
 
 #include "alcove/errors.h"
 
@@ -25,6 +26,7 @@ int complain(ExitCode code, std::string message) {
 }
 
 int main(int argc, char** argv) {
+    alcove::cli::end_cleanly();
     CLI::App program{
         "Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
     program.set_version_flag("--version", "alcove " ALCOVE_VERSION);

@@ -7,13 +7,43 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace alcove {
 namespace {
+
+/// What a signal handler finds: paths in memory of their own.
+struct Unfinished {
+    std::atomic<int> state{0}; // 0 free, 1 being written, 2 a path
+    std::array<char, PATH_MAX> path{};
+};
+std::array<Unfinished, 32> unfinished;
+
+/// The slot that holds the path from now on; -1 where none is free or the path is too long.
+int remember(const std::string& path) {
+    if (path.size() < PATH_MAX)
+        for (std::size_t slot = 0; slot < unfinished.size(); ++slot) {
+            int free = 0;
+            if (unfinished[slot].state.compare_exchange_strong(free, 1)) {
+                std::copy_n(path.c_str(), path.size() + 1, unfinished[slot].path.begin());
+                unfinished[slot].state = 2;
+                return static_cast<int>(slot);
+            }
+        }
+    return -1;
+}
+
+void forget(int slot) {
+    if (slot >= 0)
+        unfinished[static_cast<std::size_t>(slot)].state = 0;
+}
 
 [[noreturn]] void fail(const std::filesystem::path& target, const std::string& what) {
     const int reason = errno;
@@ -47,6 +77,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
         temporary_.clear();
         fail(target, "cannot be written");
     }
+    slot_ = remember(temporary_.string());
     if (exists)
         ::fchmod(descriptor_, old.st_mode & 07777);
 }
@@ -56,6 +87,7 @@ AtomicFile::~AtomicFile() {
         ::close(descriptor_);
     if (!temporary_.empty())
         ::unlink(temporary_.c_str());
+    forget(slot_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
@@ -76,6 +108,13 @@ void AtomicFile::commit() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(target_, "cannot be replaced");
     temporary_.clear();
+    forget(std::exchange(slot_, -1));
+}
+
+void remove_unfinished_files() noexcept {
+    for (const Unfinished& file : unfinished)
+        if (file.state == 2)
+            ::unlink(file.path.data());
 }
 
 }

@@ -26,6 +26,11 @@ class AtomicFile {
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
+    int slot_ = -1; ///< among the unfinished files
 };
+
+/// Removes the temporary files of all that are not committed, when the process is about to end. Safe in a signal handler.
+/// The first 32 of them at a time are known.
+void remove_unfinished_files() noexcept;
 
 }

@@ -1,9 +1,11 @@
 #include "program.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -40,6 +42,17 @@ ProgramTest::~ProgramTest() {
 }
 
 Outcome ProgramTest::run(std::vector<std::string> arguments) const {
+    return finish(start(std::move(arguments)));
+}
+
+Outcome ProgramTest::run_until(std::vector<std::string> arguments, int signal, int milliseconds) const {
+    const pid_t child = start(std::move(arguments));
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    ::kill(child, signal);
+    return finish(child);
+}
+
+pid_t ProgramTest::start(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), ALCOVE_PROGRAM);
     std::vector<char*> words;
     words.reserve(arguments.size() + 1);
@@ -59,15 +72,23 @@ Outcome ProgramTest::run(std::vector<std::string> arguments) const {
         if (largest_file_ > 0) {
             const rlimit limit{largest_file_, largest_file_};
             ::setrlimit(RLIMIT_FSIZE, &limit);
-            ::signal(SIGXFSZ, SIG_IGN);
+        }
+        if (most_memory_ > 0) {
+            const rlimit limit{most_memory_, most_memory_};
+            ::setrlimit(RLIMIT_AS, &limit);
         }
         if (::chdir(work.c_str()) == 0)
             ::execv(words.front(), words.data());
         ::_exit(127);
     }
+    return child;
+}
+
+Outcome ProgramTest::finish(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(out), contents(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(folder_ / "out"),
+            contents(folder_ / "err")};
 }
 
 void ProgramTest::expect_refusal(const std::vector<std::string>& arguments, int code,

@@ -28,6 +28,9 @@ class ProgramTest : public testing::Test {
     /// stdin is closed, stdout and stderr are no terminals.
     Outcome run(std::vector<std::string> arguments) const;
 
+    /// The same, ended by a signal some milliseconds after it began, if it is not done by then.
+    Outcome run_until(std::vector<std::string> arguments, int signal, int milliseconds) const;
+
     /// Expects that exit code, nothing on stdout, and one line on stderr that holds all of `parts`.
     void expect_refusal(const std::vector<std::string>& arguments, int code,
                         const std::vector<std::string>& parts) const;
@@ -37,7 +40,12 @@ class ProgramTest : public testing::Test {
     std::vector<std::string> files() const; ///< of the folder, sorted
 
     std::filesystem::path folder_;
+    std::size_t most_memory_ = 0;  ///< bytes of address space for the program; 0: any number
     std::size_t largest_file_ = 0; ///< bytes a program may put in a file, as on a full disk; 0: any number
+
+  private:
+    pid_t start(std::vector<std::string> arguments) const;
+    Outcome finish(pid_t child) const;
 };
 
 enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };

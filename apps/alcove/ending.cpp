@@ -1,0 +1,95 @@
+#include "ending.h"
+
+#include "alcove/atomic_file.h"
+
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+
+namespace alcove::cli {
+namespace {
+
+constexpr const char* out_of_memory = "alcove: out of memory: use a coarser --voxel\n";
+
+std::array<char, 200> late{}; // what to say when time is up: a handler may not format it
+
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    sigfillset(&action.sa_mask);
+    ::sigaction(signal, &action, nullptr);
+}
+
+extern "C" void on_interrupt(int signal) {
+    remove_unfinished_files();
+    // Whoever started the program is to see what ended it.
+    handle(signal, SIG_DFL);
+    sigset_t unblocked;
+    sigemptyset(&unblocked);
+    sigaddset(&unblocked, signal);
+    ::pthread_sigmask(SIG_UNBLOCK, &unblocked, nullptr);
+    (void)::raise(signal);
+}
+
+/// The last words of the program: nothing is destroyed any more, and nothing allocated.
+[[noreturn]] void give_up(const char* line) {
+    remove_unfinished_files();
+    if (::write(STDERR_FILENO, line, std::strlen(line)) < 0) {
+        // Nobody is there to read it.
+    }
+    ::_exit(1);
+}
+
+extern "C" void on_alarm(int) {
+    give_up(late.data());
+}
+
+[[noreturn]] void on_terminate() {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception())
+            std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+        give_up(out_of_memory);
+    } catch (const std::exception&) {
+        give_up("alcove: a library gave up where nothing could be mended\n");
+    }
+    give_up("alcove: ended for no reason that is known\n");
+}
+
+}
+
+void end_cleanly() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        ::sigaction(signal, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) // as under nohup
+            handle(signal, on_interrupt);
+    }
+    handle(SIGXFSZ, SIG_IGN);
+    std::set_terminate(on_terminate);
+}
+
+void limit_time(double seconds) {
+    std::snprintf(
+        late.data(), late.size(),
+        "alcove: stopped after the %g s of --time-limit: allow more, or ask for less (fewer --rays, a larger "
+        "--error or --voxel, a smaller --size)\n",
+        seconds);
+    handle(SIGALRM, on_alarm);
+    const double whole = std::floor(seconds);
+    itimerval timer{};
+    timer.it_value.tv_sec = static_cast<time_t>(whole);
+    timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - whole));
+    if (timer.it_value.tv_sec == 0 && timer.it_value.tv_usec == 0)
+        timer.it_value.tv_usec = 1;
+    ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+}

@@ -1,0 +1,146 @@
+/// Whatever ends a run, the file that was there before is as it was.
+#include "program.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <sstream>
+
+namespace alcove::test {
+namespace {
+
+/// What a verb is told beside its output.
+struct Job {
+    const char* name;
+    std::vector<std::string> arguments; ///< a few seconds of work
+    std::string output;                 ///< follows an option, the last of the arguments
+
+    friend void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
+};
+
+std::vector<Job> jobs() {
+    const std::string mesh = ALCOVE_REAL_MESHES "/armadillo.off";
+    return {{"BakePly", {"bake", mesh, "--rays", "2048", "-o"}, "out.ply"},
+            {"BakeObj", {"bake", mesh, "--rays", "2048", "-o"}, "out.obj"},
+            {"WriteGrid", {"bake", mesh, "--voxel", "0.15%", "-o", "other.ply", "--write-grid"}, "out.vdb"},
+            {"Voxelize", {"voxelize", mesh, "--voxel", "0.1%", "-o"}, "out.vdb"},
+            {"RenderExr", {"render", mesh, "--size", "1600x1200", "--rays", "256", "-o"}, "out.exr"},
+            {"RenderPng", {"render", mesh, "--size", "1600x1200", "--rays", "256", "-o"}, "out.png"},
+            {"MeasureReport", {"measure", mesh, "--report"}, "out.html"}};
+}
+
+class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
+  protected:
+    Faults() {
+        if (!std::filesystem::exists(ALCOVE_REAL_MESHES "/armadillo.off"))
+            missing_ = true;
+        write(GetParam().output, old_);
+    }
+    std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all = GetParam().arguments;
+        all.push_back(GetParam().output);
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    /// With less to do.
+    std::vector<std::string> quick_arguments(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all = arguments(more);
+        for (std::string& word : all)
+            word = word == "2048" || word == "256" ? "1" : word == "1600x1200" ? "320x240" : word;
+        return all;
+    }
+    void expect_untouched() const {
+        EXPECT_TRUE(bytes_of(GetParam().output) == old_);
+        for (const std::string& file : files())
+            EXPECT_FALSE(file.starts_with(".alcove-")) << file;
+    }
+    static void expect_one_line(const Outcome& outcome) {
+        std::size_t errors = 0;
+        std::istringstream lines(outcome.err);
+        for (std::string line; std::getline(lines, line);)
+            errors += line.starts_with("alcove: ") && !line.starts_with("alcove: warning");
+        EXPECT_EQ(errors, 1u) << outcome.err;
+    }
+
+    const std::string old_ = "what was there before\n";
+    bool missing_ = false;
+};
+
+TEST_P(Faults, FullDisk) {
+    if (missing_)
+        GTEST_SKIP() << "the real meshes are not there";
+    largest_file_ = 4096;
+    const Outcome outcome = run(quick_arguments());
+    EXPECT_EQ(outcome.code, failure) << outcome.err;
+    expect_one_line(outcome);
+    expect_untouched();
+}
+
+TEST_P(Faults, TimeIsUp) {
+    if (missing_)
+        GTEST_SKIP() << "the real meshes are not there";
+    for (const char* seconds : {"0.001", "0.2", "0.4"}) {
+        const Outcome outcome = run(arguments({"--time-limit", seconds}));
+        EXPECT_EQ(outcome.code, failure) << outcome.err;
+        expect_one_line(outcome);
+        EXPECT_NE(outcome.err.find("--time-limit"), std::string::npos) << outcome.err;
+        expect_untouched();
+    }
+}
+
+TEST_P(Faults, Interrupted) {
+    if (missing_)
+        GTEST_SKIP() << "the real meshes are not there";
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const auto begin = std::chrono::steady_clock::now();
+        constexpr int milliseconds = 300;
+        const Outcome outcome = run_until(arguments(), signal, milliseconds);
+        EXPECT_EQ(outcome.code, -signal) << outcome.err;
+        EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(milliseconds + 1000));
+        expect_untouched();
+    }
+}
+
+/// What no program can clean up after is left beside the old file.
+TEST_P(Faults, Killed) {
+    if (missing_)
+        GTEST_SKIP() << "the real meshes are not there";
+    EXPECT_EQ(run_until(arguments(), SIGKILL, 300).code, -SIGKILL);
+    EXPECT_TRUE(bytes_of(GetParam().output) == old_);
+}
+
+/// Where it suffices, the work is done.
+TEST_P(Faults, LittleMemory) {
+    if (missing_)
+        GTEST_SKIP() << "the real meshes are not there";
+    if (GetParam().output == "out.html")
+        GTEST_SKIP() << "a report is written whole, and tells itself what did not fit in memory";
+    int refused = 0;
+    for (const std::size_t megabytes : {160, 180, 200, 230, 260}) {
+        most_memory_ = megabytes << 20;
+        const Outcome outcome = run(quick_arguments({"--threads", "1"}));
+        if (outcome.code == done)
+            break;
+        ++refused;
+        EXPECT_TRUE(outcome.code == failure || outcome.code == bad_input)
+            << megabytes << ": " << outcome.code;
+        expect_one_line(outcome);
+        expect_untouched();
+    }
+    EXPECT_GT(refused, 0);
+}
+
+TEST_P(Faults, ReadOnlyFile) {
+    if (::geteuid() == 0)
+        GTEST_SKIP() << "root may write anywhere: files without permission are not tried";
+    std::filesystem::permissions(folder_ / "work" / GetParam().output, std::filesystem::perms::owner_read);
+    EXPECT_EQ(run(arguments()).code, failure);
+    expect_untouched();
+}
+
+INSTANTIATE_TEST_SUITE_P(Jobs, Faults, testing::ValuesIn(jobs()),
+                         [](const auto& job) { return std::string(job.param.name); });
+
+}
+}
