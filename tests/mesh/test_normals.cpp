@@ -75,6 +75,22 @@ TEST(Normals, AgreeWithASlowSumWhateverTheScaleAndPlace) {
     expect_close(area_weighted_normals(far, triangles), slow_normals(far, triangles), 1e-6);
 }
 
+TEST(Normals, ATriangleTinyBesideTheMeshHasAUnitNormal) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {3e-40, 1e-40, 0}, {1e-40, 0, 2e-40}, {1e40, 0, 0}};
+    mesh.add_face(Triangle{0, 1, 2});
+    const Vec3 expected = glm::normalize(Vec3(2, -6, -1));
+    EXPECT_LE(glm::length(area_weighted_normals(mesh, triangulate(mesh).triangles)[0] - expected), 1e-6f);
+}
+
+TEST(Normals, ADirectionHasUnitLengthWhateverItsOwn) {
+    for (const double length : {4.94065645841246544e-324, 1e-310, 1e-160, 1.0, 1e160, 1.7e308})
+        EXPECT_EQ(unit_or_zero(length * Vec3d(0, -1, 0)), Vec3(0, -1, 0)) << length;
+    EXPECT_EQ(unit_or_zero(Vec3d(0.0)), Vec3(0.0f));
+    EXPECT_EQ(unit_or_zero(Vec3d(1.0, std::nan(""), 0.0)), Vec3(0.0f));
+    EXPECT_EQ(unit_or_zero(Vec3d(1.0, HUGE_VAL, 0.0)), Vec3(0.0f));
+}
+
 TEST(Normals, ALargeFaceWeighsMoreThanASmallOne) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {3, 0, 0}, {0, 1, 0}, {0, 0, 1}};

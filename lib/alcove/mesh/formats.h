@@ -37,7 +37,4 @@ void close_face(Mesh& mesh);
 /// A colour component that runs to 255 as a byte; 0 if it is not a number.
 std::uint8_t color_byte(double value);
 
-/// n at unit length; zero where it has no finite, positive length.
-Vec3 unit_or_zero(const Vec3d& n);
-
 }

@@ -17,17 +17,24 @@ struct Sum {
     double in_line = 0.0;
 };
 
-/// Unit length, or zero where that is impossible.
-Vec3 unit_or_zero(const Vec3& n) {
-    const double length = glm::length(Vec3d(n));
-    return length > 0.0 && std::isfinite(length) ? Vec3(Vec3d(n) / length) : Vec3(0.0f);
+/// The power of two that brings a positive number near 1.
+double power_towards_one(double number) {
+    return std::ldexp(1.0, std::clamp(-std::ilogb(number), -1022, 1022));
 }
 
+}
+
+Vec3 unit_or_zero(const Vec3d& n) {
+    const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
+    if (!is_finite(n) || largest == 0.0)
+        return Vec3(0.0f);
+    // Else squares of the smallest and the largest are out of range.
+    const Vec3d scaled = power_towards_one(largest) * n;
+    return Vec3(scaled / glm::length(scaled));
 }
 
 double exact_scale(const Mesh& mesh) {
-    const int exponent = std::ilogb(frame_of(mesh.box()).diagonal);
-    return std::ldexp(1.0, std::clamp(-exponent, -1022, 1022));
+    return power_towards_one(frame_of(mesh.box()).diagonal);
 }
 
 std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
@@ -52,8 +59,8 @@ std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triang
     std::vector<Vec3> normals(mesh.vertex_count());
     parallel_for(normals.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const double length = glm::length(sums[v].vector);
-            normals[v] = length > cancelled * sums[v].in_line ? Vec3(sums[v].vector / length) : Vec3(0.0f);
+            const bool is_direction = glm::length(sums[v].vector) > cancelled * sums[v].in_line;
+            normals[v] = is_direction ? unit_or_zero(sums[v].vector) : Vec3(0.0f);
         }
     });
     return normals;
@@ -68,7 +75,7 @@ std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> tri
     std::vector<Vec3> normals(mesh.vertex_count(), Vec3(0.0f));
     bool missing = !from_file;
     for (std::size_t v = 0; from_file && v < normals.size(); ++v) {
-        normals[v] = unit_or_zero(mesh.normals[v]);
+        normals[v] = unit_or_zero(Vec3d(mesh.normals[v]));
         missing = missing || normals[v] == Vec3(0.0f);
     }
     if (missing && source != NormalSource::file) {

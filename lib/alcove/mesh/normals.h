@@ -19,6 +19,9 @@ enum class NormalSource {
 /// What rounding leaves of the sine between two sides in line.
 inline constexpr double flat_sine = 1e-14;
 
+/// At unit length, of whatever length it is; zero where it is zero or not finite.
+Vec3 unit_or_zero(const Vec3d& n);
+
 /// The power of two that brings the diagonal of the mesh near 1: scaling by it rounds nothing.
 double exact_scale(const Mesh& mesh);
 

@@ -1,6 +1,7 @@
 // Format: Wavefront Technologies, "Advanced Visualizer Manual", appendix B (1993), and the vertex colours
 // many programs write behind the coordinates of a 'v' line.
 #include "alcove/mesh/formats.h"
+#include "alcove/mesh/normals.h"
 #include "alcove/mesh/obj_document.h"
 #include "alcove/mesh/text_scanner.h"
 

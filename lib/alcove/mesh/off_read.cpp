@@ -1,6 +1,7 @@
 // Format: Geomview manual, "OFF Files": [ST][C][N][4][n]OFF [BINARY].
 #include "alcove/mesh/byte_reader.h"
 #include "alcove/mesh/formats.h"
+#include "alcove/mesh/normals.h"
 #include "alcove/mesh/text_scanner.h"
 
 #include <algorithm>

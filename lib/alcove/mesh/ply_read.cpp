@@ -1,5 +1,6 @@
 #include "alcove/huge_pages.h"
 #include "alcove/mesh/formats.h"
+#include "alcove/mesh/normals.h"
 #include "alcove/mesh/ply_parse.h"
 
 #include <algorithm>

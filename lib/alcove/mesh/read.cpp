@@ -95,9 +95,4 @@ std::uint8_t color_byte(double value) {
     return value > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : std::uint8_t(0);
 }
 
-Vec3 unit_or_zero(const Vec3d& n) {
-    const double length = glm::length(n);
-    return std::isfinite(length) && length > 0.0 ? Vec3(n / length) : Vec3(0.0f);
-}
-
 }
