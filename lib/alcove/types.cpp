@@ -1,5 +1,7 @@
 #include "alcove/types.h"
 
+#include "alcove/errors.h"
+
 #include <cmath>
 
 namespace alcove {
@@ -10,16 +12,19 @@ double Box::diagonal() const {
     // Scaled so that neither the squares of huge extents nor those of tiny ones leave the range of a double.
     const Vec3d extent = max - min;
     const double largest = std::fmax(extent.x, std::fmax(extent.y, extent.z));
-    return largest > 0.0 ? largest * glm::length(extent / largest) : 0.0;
+    return largest > 0.0 && std::isfinite(largest) ? largest * glm::length(extent / largest) : largest;
 }
 
 Frame frame_of(const Box& box) {
     Frame frame;
     if (box.empty())
         return frame;
+    const double diagonal = box.diagonal();
+    if (std::isinf(diagonal))
+        throw InputError("coordinates lie further apart than numbers reach: scale them down");
     frame.center = box.center();
-    if (const double d = box.diagonal(); d > 0.0)
-        frame.diagonal = d;
+    if (diagonal > 0.0)
+        frame.diagonal = diagonal;
     return frame;
 }
 

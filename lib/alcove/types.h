@@ -37,7 +37,7 @@ struct Box {
     }
     bool empty() const { return !(min.x <= max.x); }
     Vec3d center() const { return min + 0.5 * (max - min); }
-    double diagonal() const;
+    double diagonal() const; ///< infinite where it is more than a double holds
 };
 
 /// Scene space <-> unit space: unit = (scene - center) / diagonal.
@@ -49,7 +49,8 @@ struct Frame {
     Vec3d to_scene(const Vec3& unit) const { return Vec3d(unit) * diagonal + center; }
 };
 
-/// The frame of a box; of diagonal 1 where the box is empty or a single point.
+/// The frame of a box; of diagonal 1 where the box is empty or a single point. \throw InputError if the diagonal of the box
+/// is infinite.
 Frame frame_of(const Box& box);
 
 /// A point of the surface and its unit normal; a zero normal marks a point that has none.

@@ -65,6 +65,8 @@ std::vector<Damage> damages() {
          "holds 1 point but no faces"},
         {"points.obj", obj, "", "holds 3 points but no faces"},
         {"nothing.stl", stl_title + packed(0), "", "holds 0 points but no faces"},
+        {"far_apart.obj", "v -1e308 0 0\nv 1e308 0 0\nv 0 1 0\nf 1 2 3\n", "",
+         "further apart than numbers reach"},
         {"nothing.obj", "# only a comment\n", "", "holds 0 points but no faces"},
         // PLY headers
         {"magic.ply", "plyx\nformat ascii 1.0\n", "line 1", "begins with a line 'ply'"},

@@ -1,5 +1,7 @@
 #include "alcove/mesh/mesh.h"
 
+#include "alcove/errors.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,6 +33,14 @@ TEST(Mesh, FrameMapsTheBoxToUnitDiagonalAroundTheOrigin) {
     EXPECT_NEAR(glm::length(high - low), 1.0, 1e-6);
     EXPECT_NEAR(glm::length(high + low), 0.0, 1e-6);
     EXPECT_NEAR(glm::length(frame.to_scene(high) - box.max), 0.0, 1e-6);
+}
+
+TEST(Mesh, ABoxThatNumbersCannotMeasureHasNoFrame) {
+    Box box;
+    box.add(Vec3d(-1e308));
+    box.add(Vec3d(1e308));
+    EXPECT_TRUE(std::isinf(box.diagonal()));
+    EXPECT_THROW(frame_of(box), InputError);
 }
 
 TEST(Mesh, AttributeOfTheSameNameIsReplacedAndOfAnotherLengthRefused) {
