@@ -13,6 +13,8 @@ namespace {
 /// Calls f(row, bytes of that property) for all rows.
 template <class F>
 void for_each_value(const PlyElement& element, const PlyProperty& wanted, F&& f) {
+    if (element.count == 0)
+        return; // there may be no memory of which to count bytes
     const std::byte* at = element.rows.data();
     if (!element.has_lists()) {
         const std::size_t stride = element.smallest_row();
