@@ -3,11 +3,11 @@
 #include "ending.h"
 
 #include "alcove/errors.h"
+#include "alcove/mesh/file_bytes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -16,10 +16,8 @@ namespace {
 enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
 
 /// One line, whatever the names in it hold.
-int complain(ExitCode code, std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-    std::fputs(fmt::format("alcove: {}\n", message).c_str(), stderr);
+int complain(ExitCode code, const std::string& message) {
+    std::fputs(fmt::format("alcove: {}\n", alcove::in_one_line(message)).c_str(), stderr);
     return code;
 }
 

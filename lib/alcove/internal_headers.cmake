@@ -55,5 +55,6 @@ set(alcove_internal_headers
     scene/prop_fields.h
     scene/props.h
     scene/support.h
+    scene/toml_depth.h
     scene/toml_table.h
     scene/triangles.h)

@@ -234,6 +234,30 @@ TEST(SceneFile, WhatIsNoTomlIsNamedWithItsLine) {
     EXPECT_THROW(read_scene("/nowhere/scene.toml"), InputError);
 }
 
+TEST(SceneFile, ARefusalIsOneLineWhateverTheNamesHold) {
+    expect_refusal("\"a\\nb\" = 1\n", {":1", "a?b"});
+    expect_refusal("[camera]\nfov = tru\n", {":2", "is no TOML"});
+    expect_refusal("[[object]]\nshape = \"a\\nb\"\n", {":2", "a?b"});
+}
+
+TEST(SceneFile, TablesNestedWithoutEndAreRefused) {
+    std::string deep = "a";
+    for (int i = 0; i < 100000; ++i)
+        deep += ".a";
+    expect_refusal("[camera]\n[" + deep + "]\n", {":2", "nested more than 1000 deep"});
+    expect_refusal(deep + " = 1\n", {":1", "nested more than 1000 deep"});
+    expect_refusal("a = [\n{" + deep + " = 1}]\n", {":2", "nested more than 1000 deep"});
+    expect_refusal("a = [\"\"\"x\"\"\"\", {" + deep + " = 1}]\n", {":1", "nested more than 1000 deep"});
+    // Dots of texts, comments and numbers are none.
+    const std::string dots(2000, '.');
+    std::string numbers;
+    for (int i = 0; i < 2000; ++i)
+        numbers += "0.5,\n";
+    expect_refusal("# " + dots + "\n[camera]\neye = \"\\\"" + dots + "\"\n", {":3", "takes three numbers"});
+    expect_refusal("[camera]\neye = \"\"\"\n" + dots + "\"\"\"\n", {":2", "takes three numbers"});
+    expect_refusal("[camera]\neye = [" + numbers + "]\n", {":2", "takes three numbers"});
+}
+
 TEST(SceneFile, PartsMayNotBeNestedWithoutEnd) {
     std::string nested = "{ shape = \"box\" }";
     for (int i = 0; i < 40; ++i)

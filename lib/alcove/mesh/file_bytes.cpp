@@ -104,6 +104,12 @@ std::string in_quotes(std::string_view text) {
     return result + (text.size() > longest ? "...'" : "'");
 }
 
+std::string in_one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+    return text;
+}
+
 std::string grouped(std::size_t count) {
     std::string digits = std::to_string(count);
     for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)

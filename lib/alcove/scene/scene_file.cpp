@@ -2,6 +2,7 @@
 
 #include "alcove/errors.h"
 #include "alcove/mesh/file_bytes.h"
+#include "alcove/scene/toml_depth.h"
 #include "alcove/scene/toml_table.h"
 
 #include <fmt/format.h>
@@ -294,12 +295,13 @@ Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
 
 Scene read_scene(const std::filesystem::path& file) {
     const FileBytes bytes(file);
+    check_toml_depth(bytes);
     try {
         const toml::table root = toml::parse(bytes.view(), file.string());
         return read_tables(TomlTable(root, file.string(), "the scene"), file.parent_path());
     } catch (const toml::parse_error& error) {
         throw InputError(fmt::format("{}:{}: is no TOML here: {}", file.string(), error.source().begin.line,
-                                     error.description()));
+                                     in_one_line(std::string(error.description()))));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "alcove/edit_distance.h"
 #include "alcove/errors.h"
+#include "alcove/mesh/file_bytes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,7 +39,8 @@ TomlTable::TomlTable(const toml::table& table, std::string file, std::string nam
 void TomlTable::fail(std::string_view key, const std::string& what, std::string_view between) const {
     const toml::node* node = table_.get(key);
     const auto line = (node ? node->source() : table_.source()).begin.line;
-    throw InputError(fmt::format("{}:{}: {}{}{}", file_, line, key, key.empty() ? "" : between, what));
+    throw InputError(fmt::format("{}:{}: {}", file_, line,
+                                 in_one_line(fmt::format("{}{}{}", key, key.empty() ? "" : between, what))));
 }
 
 /// The name of a table within this one.
@@ -184,16 +186,18 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::named_tables() {
 }
 
 void TomlTable::check_all_read() const {
+    constexpr std::size_t longest = 64; // no key is near a longer one
     for (const auto& [key, node] : table_) {
-        const std::string_view unknown = key.str();
-        if (std::find(asked_.begin(), asked_.end(), unknown) != asked_.end())
+        if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end())
             continue;
+        const std::string_view unknown = key.str().substr(0, longest);
         const auto nearest =
             std::min_element(asked_.begin(), asked_.end(), [&](const auto& a, const auto& b) {
                 return edit_distance(unknown, a) < edit_distance(unknown, b);
             });
         throw InputError(fmt::format("{}:{}: there is no key {} in {}; did you mean {}?", file_,
-                                     key.source().begin.line, unknown, name_, *nearest));
+                                     key.source().begin.line, in_one_line(std::string(unknown)),
+                                     in_one_line(name_), *nearest));
     }
 }
 
