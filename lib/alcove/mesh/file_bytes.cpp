@@ -81,7 +81,7 @@ FileBytes::FileBytes(const std::filesystem::path& file, std::string_view bytes)
 }
 
 void FileBytes::fail(std::string_view message) const {
-    throw InputError(path_.string() + ": " + std::string(message));
+    throw InputError(path_.string() + ": " + in_one_line(std::string(message)));
 }
 
 void FileBytes::fail_at_line(const char* place, std::string_view message) const {

@@ -25,7 +25,7 @@ class FileBytes {
     /// The bytes live at least as long as this, and longer where what it returns does.
     std::shared_ptr<const void> keeper() const { return bytes_; }
 
-    /// \throw InputError "file: message".
+    /// \throw InputError "file: message", in one line.
     [[noreturn]] void fail(std::string_view message) const;
     /// \throw InputError "file: line N: message". Lines end with LF, CRLF or CR.
     [[noreturn]] void fail_at_line(const char* place, std::string_view message) const;
