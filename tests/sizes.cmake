@@ -10,7 +10,7 @@ set(longest_source 400)
 set(longest_median_header 120)
 
 file(GLOB folders RELATIVE ${TREE} ${TREE}/lib ${TREE}/apps ${TREE}/tests ${TREE}/bench ${TREE}/examples
-     ${TREE}/fit)
+     ${TREE}/fit ${TREE}/fuzz)
 execute_process(COMMAND grep -rc --include=*.h --include=*.cpp "" ${folders}
                 WORKING_DIRECTORY ${TREE} OUTPUT_VARIABLE counts RESULT_VARIABLE status)
 if(NOT status EQUAL 0)

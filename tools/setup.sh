@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what building and testing take, from Debian's packages, and unpacks the real meshes of the demo and the
 # tests into build/meshes. Does nothing where all of it is there.
+#
+#     tools/setup.sh [PACKAGE...]    # these as well
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,6 +11,7 @@ packages=(
     libopenvdb-dev libboost-dev libboost-iostreams-dev libopenmesh-dev libtbb-dev libhwy-dev libglm-dev
     libnanovdb-dev libopenexr-dev libpng-dev zlib1g-dev libfast-float-dev libfmt-dev libcli11-dev nlohmann-json3-dev libembree-dev
     libeigen3-dev libtomlplusplus-dev libgtest-dev libbenchmark-dev
+    "$@"
 )
 
 missing=()

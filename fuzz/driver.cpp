@@ -1,0 +1,111 @@
+// Runs a target without a fuzzer: on the files it is given, then on random damage to them.
+//
+//     fuzz_NAME ROUNDS SEED FILE|FOLDER...
+//
+// An input that fails, takes more than two seconds or 512 MB is kept in NAME.failed in the working folder; a folder that
+// is not there holds no files.
+#include "alcove/resident_memory.h"
+#include "mutations.h"
+
+#include <fcntl.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+constexpr int most_seconds = 2;
+constexpr std::size_t most_bytes = std::size_t{512} << 20;
+
+std::string kept_in; ///< the name of the file for an input that fails
+std::string at_work; ///< that input
+
+/// Safe in a signal handler.
+[[noreturn]] void keep_and_end(const char* reason) {
+    const int file = ::open(kept_in.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const bool kept = ::write(file, at_work.data(), at_work.size()) == static_cast<ssize_t>(at_work.size());
+    for (const char* part :
+         {reason, kept ? "; the input is kept in " : "; the input cannot be kept in ", kept_in.c_str(), "\n"})
+        if (::write(STDERR_FILENO, part, std::strlen(part)) < 0)
+            break;
+    ::_exit(1);
+}
+
+void on_signal(int number) {
+    keep_and_end(number == SIGALRM ? "an input takes more than two seconds" : "an input ends the program");
+}
+
+void set_alarm(int seconds) {
+    const itimerval time{{0, 0}, {seconds, 0}};
+    ::setitimer(ITIMER_REAL, &time, nullptr);
+}
+
+void run(std::string bytes) {
+    at_work = std::move(bytes);
+    alcove::forget_peak_resident_bytes();
+    const std::size_t before = alcove::peak_resident_bytes();
+    set_alarm(most_seconds);
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(at_work.data()), at_work.size());
+    set_alarm(0);
+    if (alcove::peak_resident_bytes() > before + most_bytes)
+        keep_and_end("an input takes more than 512 MB");
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream input(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(input), {}};
+}
+
+/// The files named, and those in folders, in the order of their names.
+std::vector<std::string> inputs_of(char** begin, char** end) {
+    std::vector<std::filesystem::path> files;
+    for (; begin != end; ++begin)
+        if (std::filesystem::is_regular_file(*begin))
+            files.emplace_back(*begin);
+        else if (std::filesystem::is_directory(*begin))
+            for (const auto& entry : std::filesystem::directory_iterator(*begin))
+                files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<std::string> inputs;
+    std::transform(files.begin(), files.end(), std::back_inserter(inputs), bytes_of);
+    return inputs;
+}
+
+}
+
+int main(int count, char** arguments) {
+    if (count < 4) {
+        std::fprintf(stderr, "usage: %s ROUNDS SEED FILE|FOLDER...\n", arguments[0]);
+        return 2;
+    }
+    const unsigned long rounds = std::strtoul(arguments[1], nullptr, 10),
+                        seed = std::strtoul(arguments[2], nullptr, 10);
+    const std::vector<std::string> inputs = inputs_of(arguments + 3, arguments + count);
+    if (inputs.empty()) {
+        std::fprintf(stderr, "%s: there are no inputs\n", arguments[0]);
+        return 2;
+    }
+    kept_in = std::filesystem::path(arguments[0]).filename().string() + ".failed";
+    for (const int number : {SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+        std::signal(number, on_signal);
+
+    std::printf("%zu inputs, %lu mutations, seed %lu\n", inputs.size(), rounds, seed);
+    std::fflush(stdout);
+    for (const std::string& input : inputs)
+        run(input);
+    alcove::fuzz::Random random(seed);
+    for (unsigned long round = 0; round < rounds; ++round)
+        run(alcove::fuzz::mutated(inputs[random() % inputs.size()], inputs, random));
+    return 0;
+}
