@@ -19,9 +19,9 @@ tools/setup.sh clang libclang-rt-14-dev
 cmake --preset fuzz -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 cmake --build build-fuzz --target "${@/#/fuzz_}"
 
-# Resident memory also holds the sanitizer's shadow, its quarantine of freed blocks and what libFuzzer knows: the limit on
-# it is four times that on an allocation.
-limits=(-timeout=2 -malloc_limit_mb=512 -rss_limit_mb=2048 -max_len=65536)
+# Resident memory also holds the sanitizer's shadow, its quarantine of freed blocks and what libFuzzer knows, some 200 MB:
+# the limit on it is twice that on an allocation.
+limits=(-timeout=2 -malloc_limit_mb=512 -rss_limit_mb=1024 -max_len=65536)
 export ASAN_OPTIONS=quarantine_size_mb=64
 export LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0
 mkdir -p build-fuzz/failures
