@@ -15,7 +15,8 @@ bool is_positive(double value) {
 
 void check_level(const LevelSet& level) {
     require(is_positive(level.voxel), "voxels are finite and above 0");
-    require(level.outer_band > 0.0f && level.inner_band > 0.0f, "bands are above 0");
+    require(is_positive(double(level.outer_band)) && is_positive(double(level.inner_band)),
+            "bands are finite and above 0");
     require(is_finite(Vec3d(level.origin)), "origins are finite");
     const openvdb::FloatGrid& grid = *level.grid->grid;
     require(is_positive(grid.background()), "the background is air");

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Builds what writes docs/methods.md, docs/rendering.md, docs/accuracy.md and docs/performance.md with their pictures,
-# and runs it: tools/docs.sh [methods] [rendering] [accuracy] [performance]. The first two take a few minutes, the others up
-# to a quarter of an hour.
+# Builds what writes docs/methods.md, docs/rendering.md, docs/stability.md, docs/accuracy.md and docs/performance.md with
+# their pictures, and runs it: tools/docs.sh [methods] [rendering] [stability] [accuracy] [performance]. The first three take a
+# few minutes, the others up to a quarter of an hour.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-[ $# -gt 0 ] || set -- methods rendering accuracy performance
+[ $# -gt 0 ] || set -- methods rendering stability accuracy performance
 tools/setup.sh
 cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
 for page in "$@"; do

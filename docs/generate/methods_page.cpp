@@ -2,6 +2,7 @@
 //
 //     alcove_methods_page <folder of meshes> <docs folder>
 #include "page.h"
+#include "row.h"
 #include "words.h"
 
 #include <alcove/alcove.h>
@@ -112,20 +113,6 @@ class Scan : public Scene {
     Camera camera_;
     Occluders occluders_;
 };
-
-/// Tiles side by side.
-Image row_of(const std::vector<Image>& tiles) {
-    Image row(tile.width * static_cast<int>(tiles.size()), tile.height);
-    for (std::size_t t = 0; t < tiles.size(); ++t)
-        for (int y = 0; y < tile.height; ++y)
-            for (int x = 0; x < tile.width; ++x) {
-                const auto from = static_cast<std::size_t>(y * tile.width + x);
-                const auto to = static_cast<std::size_t>(y * row.width + x) + t * tile.width;
-                row.alpha[to] = tiles[t].alpha[from];
-                row.ao[to] = tiles[t].ao[from];
-            }
-    return row;
-}
 
 std::string parameters_of(const Method& method) {
     std::string text;

@@ -18,6 +18,7 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace alcove {
 namespace {
@@ -130,11 +131,18 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std:
                        fmt::format("grid '{}' has voxels that are no cubes along the axes: resample it to a "
                                    "uniform, unrotated transform",
                                    grid->getName()));
+    const double band = double(grid->background()) / size;
+    if (!(band > 0.0 && band < double(std::numeric_limits<float>::max())))
+        refuse(
+            file,
+            fmt::format("grid '{}' has a background of {:g}, which is no distance outside its band: the file "
+                        "is damaged, write it again",
+                        grid->getName(), grid->background()));
     LevelSet level;
     level.voxel = static_cast<float>(size / frame.diagonal);
     const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
     level.origin = frame.to_unit({origin.x(), origin.y(), origin.z()});
-    level.outer_band = static_cast<float>(grid->background() / size);
+    level.outer_band = static_cast<float>(band);
     level.inner_band = inner_band_of(*grid, size, level.outer_band);
     level.active_voxels = grid->activeVoxelCount();
     level.bytes = grid->memUsage();
@@ -269,7 +277,11 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     box.add({scene.max().x(), scene.max().y(), scene.max().z()});
     GridStack stack;
     stack.creator = (*chosen)->getCreator();
-    stack.frame = frame_of(box);
+    try {
+        stack.frame = frame_of(box);
+    } catch (const InputError& error) {
+        refuse(file, error.what());
+    }
     stack.value_unit = value_unit_of(stack.frame);
     if (!(glm::length(stack.frame.center) < 1e12 * (*chosen)->voxelSize().x()))
         refuse(file, fmt::format(
