@@ -69,11 +69,12 @@ class Damage {
             bytes_.erase(at, length());
             break;
         case 6:
-            bytes_.insert(below(bytes_.size() + 1), bytes_.substr(at, length()));
+            bytes_.insert(at, bytes_.substr(at, length()));
             break;
         case 7: {
             const std::string& other = others_[below(others_.size())];
-            overwrite(at, std::string_view(other).substr(below(other.size() + 1), length()));
+            const std::size_t from = below(other.size() + 1); // drawn first
+            overwrite(at, std::string_view(other).substr(from, length()));
             break;
         }
         default:

@@ -24,12 +24,12 @@ std::string thin_wall_warning(double rmse, const Method& method, std::span<const
     const ThinWalls walls = thin_walls(surfels, occluders.rays(), resolution(field), two_sided(field));
     if (walls.share < few)
         return {};
-    const std::string finer = double(walls.voxel) < finest_voxel
-                                  ? ""
-                                  : fmt::format("--voxel {:.2g}, or ", double(walls.voxel) * diagonal);
+    constexpr double clearly = 0.98; // finer, for the voxel is told by three digits
+    const double told = clearly * double(walls.voxel);
+    const std::string finer = told < finest_voxel ? "" : fmt::format("--voxel {:.3g}, or ", told * diagonal);
     return fmt::format(
-        "{:.0f} % of the vertices are on walls too thin for the voxel of {:.2g}, and rays through "
-        "the grid pass them: use {}--method guided, whose rays meet the triangles",
+        "{:.2g} % of the vertices are on walls too thin for the voxel of {:.3g}, and rays through "
+        "the grid may pass them: use {}--method guided, whose rays meet the triangles",
         100.0 * walls.share, double(resolution(field)) * diagonal, finer);
 }
 
@@ -49,10 +49,12 @@ Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const B
         const Pilot pilot(surfels, occluders.rays(), task.settings.radius, pilot_beside(baked.choice.rays()));
         if (!pilot.empty()) {
             baked.rmse = pilot.rmse(baked.values[Channel::ao]);
+            const bool is_own_grid = input.stack.creator.empty(); // of a file the voxel is what it is
             const std::string warning =
                 thin_wall_warning(*baked.rmse, *task.method, surfels, occluders, input.frame.diagonal,
-                                  finest_voxel(surface_size(input.mesh, input.triangles),
-                                               input.triangles.size(), input.options.grid));
+                                  is_own_grid ? finest_voxel(surface_size(input.mesh, input.triangles),
+                                                             input.triangles.size(), input.options.grid)
+                                              : std::numeric_limits<double>::infinity());
             if (!warning.empty())
                 input.warnings.push_back(warning);
         }

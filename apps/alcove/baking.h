@@ -31,7 +31,7 @@ struct Baked {
 };
 
 /// What to say where an RMSE of more than 0.03 may come from walls that the grid is too coarse for; else empty, and where the
-/// method traces no rays, or triangles. `diagonal` of the mesh, scene units; `finest_voxel` that fits in memory, unit space.
+/// method traces no rays, or triangles. `diagonal` of the mesh, scene units; `finest_voxel` that may be asked for, unit space.
 std::string thin_wall_warning(double rmse, const Method& method, std::span<const Surfel> surfels,
                               const Occluders& occluders, double diagonal, double finest_voxel);
 

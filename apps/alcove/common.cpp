@@ -33,7 +33,8 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
             "--time-limit",
             [](const double& seconds) {
                 if (!(seconds > 0.0 && seconds <= 1e9))
-                    throw UsageError(fmt::format("--time-limit takes seconds above 0, not '{:g}'", seconds));
+                    throw UsageError(fmt::format(
+                        "--time-limit takes seconds, above 0 and up to 1e9, not '{:g}'", seconds));
                 limit_time(seconds);
             },
             "End with exit code 1 after that many seconds, and leave files as they were")

@@ -1,5 +1,7 @@
 #include "ending.h"
 
+#include "progress.h"
+
 #include "alcove/atomic_file.h"
 
 #include <sys/time.h>
@@ -41,6 +43,8 @@ extern "C" void on_interrupt(int signal) {
 /// The last words of the program: nothing is destroyed any more, and nothing allocated.
 [[noreturn]] void give_up(const char* line) {
     remove_unfinished_files();
+    if (bar_is_shown && ::write(STDERR_FILENO, clear_bar.data(), clear_bar.size()) < 0)
+        ::_exit(1);
     if (::write(STDERR_FILENO, line, std::strlen(line)) < 0) {
         // Nobody is there to read it.
     }
@@ -66,10 +70,11 @@ extern "C" void on_alarm(int) {
 }
 
 void end_cleanly() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal :
+         {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGSEGV, SIGBUS, SIGILL, SIGFPE}) {
         struct sigaction before {};
         ::sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) // as under nohup
+        if (before.sa_handler == SIG_DFL) // else ignored, as under nohup, or a sanitizer's
             handle(signal, on_interrupt);
     }
     handle(SIGXFSZ, SIG_IGN);

@@ -3,7 +3,7 @@
 
 namespace alcove::cli {
 
-/// From now on SIGINT, SIGTERM and SIGHUP remove what is not written to its end, and then end the program as they do; a file
+/// From now on what ends a program by a signal, as SIGINT does, removes what is not written to its end, and then ends it as before; a file
 /// that grows over a limit is an error like that of a full disk. So does what libraries throw where nothing can catch it: too
 /// little memory, as a rule. It becomes one line and exit code 1.
 void end_cleanly();

@@ -18,8 +18,9 @@ ProgressMeter::ProgressMeter(ProgressMode mode, std::string label) : mode_(mode)
 }
 
 ProgressMeter::~ProgressMeter() {
-    if (shown_ && mode_ == ProgressMode::bar)
-        std::fputs("\r\033[K", stderr);
+    if (bar_is_shown)
+        std::fputs(clear_bar.data(), stderr);
+    bar_is_shown = false;
 }
 
 void ProgressMeter::operator()(double done) {
@@ -31,13 +32,13 @@ void ProgressMeter::operator()(double done) {
     if (elapsed < quiet_seconds || done >= 1.0 || since < (mode_ == ProgressMode::bar ? 0.1 : 1.0))
         return;
     last_shown_ = now;
-    shown_ = true;
+    bar_is_shown = mode_ == ProgressMode::bar;
     const std::string left =
         done > 0.0 ? fmt::format("{:.0f} s left", elapsed / done * (1.0 - done)) : std::string("estimating");
     if (mode_ == ProgressMode::bar) {
         constexpr int width = 30;
         const int filled = static_cast<int>(done * width);
-        std::fputs(fmt::format("\r\033[K{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", label_, "", filled, "",
+        std::fputs(fmt::format("{}{:<12} [{:#<{}}{:<{}}] {:3.0f} %  {}", clear_bar, label_, "", filled, "",
                                width - filled, 100.0 * done, left)
                        .c_str(),
                    stderr);

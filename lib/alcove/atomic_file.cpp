@@ -71,13 +71,15 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
         temporary_ = target_.parent_path() / ".alcove-";
         temporary_ += std::to_string(random());
         temporary_ += ".part";
+        forget(slot_);
+        slot_ = remember(temporary_.string()); // before it is there
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) {
         temporary_.clear();
+        forget(slot_);
         fail(target, "cannot be written");
     }
-    slot_ = remember(temporary_.string());
     if (exists)
         ::fchmod(descriptor_, old.st_mode & 07777);
 }

@@ -52,6 +52,20 @@ Outcome ProgramTest::run_until(std::vector<std::string> arguments, int signal, i
     return finish(child);
 }
 
+Outcome ProgramTest::run_until_part(std::vector<std::string> arguments, int signal) const {
+    const pid_t child = start(std::move(arguments));
+    const auto is_part = [](const std::string& name) { return name.starts_with(".alcove-"); };
+    for (siginfo_t ended{}; ended.si_pid == 0;) {
+        const std::vector<std::string> there = files();
+        if (std::any_of(there.begin(), there.end(), is_part)) {
+            ::kill(child, signal);
+            break;
+        }
+        ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    return finish(child);
+}
+
 pid_t ProgramTest::start(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), ALCOVE_PROGRAM);
     std::vector<char*> words;

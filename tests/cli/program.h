@@ -31,6 +31,9 @@ class ProgramTest : public testing::Test {
     /// The same, ended by a signal some milliseconds after it began, if it is not done by then.
     Outcome run_until(std::vector<std::string> arguments, int signal, int milliseconds) const;
 
+    /// The same, ended by a signal as soon as part of a file is there.
+    Outcome run_until_part(std::vector<std::string> arguments, int signal) const;
+
     /// Expects that exit code, nothing on stdout, and one line on stderr that holds all of `parts`.
     void expect_refusal(const std::vector<std::string>& arguments, int code,
                         const std::vector<std::string>& parts) const;

@@ -102,6 +102,16 @@ TEST_P(Faults, Interrupted) {
     }
 }
 
+TEST_P(Faults, InterruptedWhileItWrites) {
+    if (missing_)
+        GTEST_SKIP() << "the real meshes are not there";
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Outcome outcome = run_until_part(quick_arguments(), signal);
+        EXPECT_EQ(outcome.code, -signal) << outcome.err;
+        expect_untouched();
+    }
+}
+
 /// What no program can clean up after is left beside the old file.
 TEST_P(Faults, Killed) {
     if (missing_)

@@ -4,6 +4,7 @@
 #include "alcove/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

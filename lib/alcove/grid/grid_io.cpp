@@ -6,6 +6,7 @@
 #include "alcove/grid/grid_checksum.h"
 #include "alcove/grid/vdb.h"
 #include "alcove/grid/vdb_lengths.h"
+#include "alcove/mesh/file_bytes.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/parallel.h"
 
@@ -34,7 +35,7 @@ std::string level_name(std::size_t level) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-    throw InputError(fmt::format("{}: {}", file.string(), what));
+    throw InputError(fmt::format("{}: {}", file.string(), in_one_line(what)));
 }
 
 /// Reads the grids of floats of a file, and passes over those of other types.
@@ -97,6 +98,9 @@ void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
     std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
     grid.tree().getNodes(leaves);
     std::atomic<std::size_t> bad{std::isfinite(grid.background()) ? 0u : 1u};
+    auto tile = grid.tree().cbeginValueAll();
+    for (tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1); tile; ++tile)
+        bad += std::isfinite(*tile) ? 0u : 1u;
     parallel_for(leaves.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t l = begin; l < end; ++l) {
             const float* const values = leaves[l]->buffer().data();
@@ -165,9 +169,10 @@ void verify(const FloatGrid::Ptr& grid, const std::filesystem::path& file) {
     const auto written = grid->getMetadata<openvdb::Int64Metadata>(checksum_name);
     if ((*grid)[checksum_name] && (!written || written->value() != checksum_of({grid})))
         refuse(file,
-               fmt::format("grid '{}' is not as alcove wrote it, as its checksum tells: the file is damaged "
-                           "or was changed, write it again",
-                           grid->getName()));
+               fmt::format(
+                   "grid '{}' is not as alcove wrote it, as its checksum tells: the file is damaged "
+                   "or was changed; write it again, or without the metadata {} if what it holds is meant",
+                   grid->getName(), checksum_name));
 }
 
 /// What is no distance is said, and refused where it is none of this grid.
@@ -184,7 +189,7 @@ void doubt(const FloatGrid::Ptr& grid, const std::filesystem::path& file,
         warnings.push_back(fmt::format("grid '{}' has {} of {} active voxels whose values are no distances "
                                        "beside those of their neighbours: "
                                        "errors of the program that made them, or of a damaged file",
-                                       grid->getName(), doubts.odd, grid->activeVoxelCount()));
+                                       in_one_line(grid->getName()), doubts.odd, grid->activeVoxelCount()));
 }
 
 GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
@@ -201,6 +206,9 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
         levels > 0.0 && levels != static_cast<double>(grids.size()))
         refuse(file, fmt::format("holds {} of the {} levels that alcove wrote: write it again", grids.size(),
                                  levels));
+    if (std::any_of(grids.begin(), grids.end(), [](const auto& grid) { return !(*grid)[checksum_name]; }))
+        stack.warnings.push_back(
+            "the grids carry no checksums: an earlier version wrote them, or the file is damaged");
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
@@ -239,7 +247,7 @@ void scale_to_scene(const FloatGrid::Ptr& grid, std::vector<std::string>& warnin
     warnings.push_back(
         fmt::format("grid '{}' has values that change by {:.3g} a unit of length: they are taken for "
                     "distances in another unit, and divided by that",
-                    grid->getName(), slope));
+                    in_one_line(grid->getName()), slope));
 }
 
 /// Active voxels where the file says that they are.

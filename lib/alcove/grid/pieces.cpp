@@ -47,7 +47,7 @@ void slice(const Vec3d& a, const Vec3d& b, const Vec3d& c, double height, Visit&
             add(b + foot * (c - b), a);
             at_foot = true;
         }
-        if (t != foot)
+        if (i == count || t != foot)
             add(i < count ? b + t * (c - b) : c, i < count ? above(t) : c);
     }
 }

@@ -47,10 +47,16 @@ std::vector<Triangle> without_twins(std::span<const Vec3d> positions, std::span<
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         while (end < order.size() && order[end].key == order[begin].key)
             ++end;
-        for (std::size_t i = begin + 1; i < end; ++i)
-            for (std::size_t k = begin; k < i && !again[order[i].value]; ++k)
-                again[order[i].value] = sorted_corners(positions, triangles[order[i].value]) ==
-                                        sorted_corners(positions, triangles[order[k].value]);
+        // Few as a rule, but a file may be made so that many share a key.
+        std::vector<std::pair<std::array<Vec3d, 3>, std::uint32_t>> group;
+        for (std::size_t i = begin; i < end && end - begin > 1; ++i)
+            group.emplace_back(sorted_corners(positions, triangles[order[i].value]), order[i].value);
+        std::stable_sort(group.begin(), group.end(), [](const auto& a, const auto& b) {
+            return std::lexicographical_compare(a.first.begin(), a.first.end(), b.first.begin(),
+                                                b.first.end(), before);
+        });
+        for (std::size_t i = 1; i < group.size(); ++i)
+            again[group[i].second] = group[i].first == group[i - 1].first;
     }
     std::vector<Triangle> kept;
     for (std::size_t i = 0; i < triangles.size(); ++i)

@@ -1,6 +1,7 @@
 #include "alcove/grid/vdb_lengths.h"
 
 #include "alcove/errors.h"
+#include "alcove/mesh/file_bytes.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -80,7 +81,7 @@ class Header {
     }
     [[noreturn]] void fail(const std::string& what,
                            const char* mend = "the file is damaged, write it again") const {
-        throw InputError(fmt::format("{}: {}: {}", file_.string(), what, mend));
+        throw InputError(fmt::format("{}: {}: {}", file_.string(), in_one_line(what), mend));
     }
 
   private:

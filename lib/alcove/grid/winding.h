@@ -29,7 +29,7 @@ class WindingColumns {
     /// Whether the winding number is anything but 0 and 1 somewhere.
     bool overlapping() const;
 
-    /// Whether there are crossings and nothing between them: all faces are there from both sides.
+    /// Whether there are crossings, and nowhere a winding number above 0 between them: faces are there from both sides.
     bool hollow() const;
 
     /// Calls `visit(triangle, bounding)` for each crossing; bounding are those between a winding number below
