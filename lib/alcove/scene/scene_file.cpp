@@ -98,6 +98,8 @@ class ObjectReader {
         SceneObject object;
         object.name =
             table.text("name").value_or(fmt::format("{} ({})", fallback_name, kinds.begin()[*kind]));
+        if (object.name.empty())
+            table.fail("name", "must not be empty");
         take(object.placement.translation, table.vector("translate"));
         take(object.placement.rotation, table.vector("rotate"));
         take(object.placement.scale, table.positive("scale"));
