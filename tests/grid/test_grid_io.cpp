@@ -251,13 +251,13 @@ TEST_F(GridFile, GridsOfOtherTypesArePassedOver) {
     EXPECT_EQ(refusal("both.vdb"), "read");
 
     // In a stream nothing tells where they end.
-    std::ofstream stream(path("stream.vdb"), std::ios::binary);
-    io::Stream(stream).write(openvdb::GridPtrVec{vectors, sphere});
-    stream.close();
+    const auto write_stream = [&](const openvdb::GridPtrVec& grids) {
+        std::ofstream stream(path("stream.vdb"), std::ios::binary); // OpenVDB leaves in it what it needs once
+        io::Stream(stream).write(grids);
+    };
+    write_stream({vectors, sphere});
     EXPECT_NE(refusal("stream.vdb").find("write it as a file"), std::string::npos) << refusal("stream.vdb");
-    stream.open(path("stream.vdb"), std::ios::binary);
-    io::Stream(stream).write(openvdb::GridPtrVec{sphere, sphere->copy()}); // which share a tree
-    stream.close();
+    write_stream({sphere, sphere->copy()}); // which share a tree
     EXPECT_EQ(refusal("stream.vdb"), "read");
 }
 
