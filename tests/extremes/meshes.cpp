@@ -64,7 +64,7 @@ Mesh comb(int fins, double thickness, double gap, bool turned) {
     }
     for (Corner& p : outline)
         p.x -= 0.5 * width;
-    Mesh mesh = prism(outline, 0.6, 20, 0.02);
+    Mesh mesh = prism(outline, 0.6, 12, 0.03);
     if (turned)
         for (Vec3d& p : mesh.positions)
             p = glm::angleAxis(0.7, glm::normalize(Vec3d(1.0, 2.0, 0.5))) * p;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_surfels = 4096;
 
 /// Voxels between the faces of a solid, and between sheets, that are told however they lie in the grid.
-constexpr float told_of_solids = 1.5f, told_of_sheets = 2.0f;
+constexpr float told_of_solids = 1.5f, told_of_sheets = 2.5f;
 
 /// Where rays start, unit space: beyond the rounding of the faces around the surfel.
 constexpr float start = 2e-6f;

@@ -13,7 +13,7 @@ struct ThinWalls {
         0.0f; ///< unit space: nine of ten of those walls are told by a grid that fine; 0 where there are none
 };
 
-/// Looks for the far sides of walls within one and a half voxels behind surfels, and for any face of sheets within two, in
+/// Looks for the far sides of walls within one and a half voxels behind surfels, and for any face of sheets within two and a half, in
 /// front of them too. Hardly a sample of the grid is within such a wall, or between such faces of sheets, and rays through
 /// the grid pass them; gaps between solids, however narrow, stop rays. `voxel` in unit space. Cost: two rays for each of
 /// up to 4,096 surfels, evenly along the Morton curve.
