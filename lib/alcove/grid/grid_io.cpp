@@ -375,9 +375,9 @@ GridStack read_grids(const std::filesystem::path& file) {
     std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) {
         return number(*a, "alcove:voxel") < number(*b, "alcove:voxel");
     });
-    for (const FloatGrid::Ptr& grid : ours)
-        verify(grid, file);
     try {
+        for (const FloatGrid::Ptr& grid : ours)
+            verify(grid, file);
         return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
     } catch (const openvdb::Exception&) {
         refuse(file, "holds a transform that makes nothing of its voxels: write it again");
