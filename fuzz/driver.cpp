@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -44,6 +45,18 @@ std::string at_work; ///< that input
 
 void on_signal(int number) {
     keep_and_end(number == SIGALRM ? "an input takes more than two seconds" : "an input ends the program");
+}
+
+/// On a stack of their own, for inputs that overflow the other.
+void handle_signals() {
+    static std::array<char, 1 << 16> stack;
+    const stack_t own{stack.data(), 0, stack.size()};
+    ::sigaltstack(&own, nullptr);
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_ONSTACK;
+    for (const int number : {SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
+        ::sigaction(number, &action, nullptr);
 }
 
 void set_alarm(int seconds) {
@@ -97,8 +110,7 @@ int main(int count, char** arguments) {
         return 2;
     }
     kept_in = std::filesystem::path(arguments[0]).filename().string() + ".failed";
-    for (const int number : {SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
-        std::signal(number, on_signal);
+    handle_signals();
 
     std::printf("%zu inputs, %lu mutations, seed %lu\n", inputs.size(), rounds, seed);
     std::fflush(stdout);

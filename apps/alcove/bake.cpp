@@ -6,6 +6,7 @@
 #include "alcove/mesh/colors.h"
 #include "alcove/mesh/source.h"
 #include "alcove/mesh/write.h"
+#include "alcove/messages.h"
 #include "alcove/resident_memory.h"
 
 #include <CLI/CLI.hpp>

@@ -7,6 +7,7 @@
 #include "alcove/grid/grid_io.h"
 #include "alcove/grid/mesh_grid.h"
 #include "alcove/mesh/read.h"
+#include "alcove/messages.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

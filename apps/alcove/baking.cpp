@@ -16,17 +16,19 @@ Needs BakeTask::needs() const {
 }
 
 std::string thin_wall_warning(double rmse, const Method& method, std::span<const Surfel> surfels,
-                              const Occluders& occluders, double diagonal, double finest_voxel) {
-    constexpr double small_rmse = 0.03, few = 0.005;
+                              const Occluders& occluders, double diagonal,
+                              const std::function<double()>& finest_voxel) {
+    constexpr double small_rmse = 0.03;
     if (rmse <= small_rmse || method.asks_rays || !method.has_parameter("rays"))
         return {};
     const AnyField& field = occluders.field();
     const ThinWalls walls = thin_walls(surfels, occluders.rays(), resolution(field), two_sided(field));
-    if (walls.share < few)
+    if (!walls.noticeable())
         return {};
     constexpr double clearly = 0.98; // finer, for the voxel is told by three digits
     const double told = clearly * double(walls.voxel);
-    const std::string finer = told < finest_voxel ? "" : fmt::format("--voxel {:.3g}, or ", told * diagonal);
+    const std::string finer =
+        told < finest_voxel() ? "" : fmt::format("--voxel {:.3g}, or ", told * diagonal);
     return fmt::format(
         "{:.2g} % of the vertices are on walls too thin for the voxel of {:.3g}, and rays through "
         "the grid may pass them: use {}--method guided, whose rays meet the triangles",
@@ -49,12 +51,14 @@ Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const B
         const Pilot pilot(surfels, occluders.rays(), task.settings.radius, pilot_beside(baked.choice.rays()));
         if (!pilot.empty()) {
             baked.rmse = pilot.rmse(baked.values[Channel::ao]);
-            const bool is_own_grid = input.stack.creator.empty(); // of a file the voxel is what it is
-            const std::string warning =
-                thin_wall_warning(*baked.rmse, *task.method, surfels, occluders, input.frame.diagonal,
-                                  is_own_grid ? finest_voxel(surface_size(input.mesh, input.triangles),
-                                                             input.triangles.size(), input.options.grid)
-                                              : std::numeric_limits<double>::infinity());
+            const auto finest = [&] {
+                const bool is_of_a_file = !input.stack.creator.empty(); // its voxel is what it is
+                return is_of_a_file ? std::numeric_limits<double>::infinity()
+                                    : finest_voxel(surface_size(input.mesh, input.triangles),
+                                                   input.triangles.size(), input.options.grid);
+            };
+            const std::string warning = thin_wall_warning(*baked.rmse, *task.method, surfels, occluders,
+                                                          input.frame.diagonal, finest);
             if (!warning.empty())
                 input.warnings.push_back(warning);
         }

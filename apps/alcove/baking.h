@@ -7,6 +7,8 @@
 #include "alcove/accuracy/method_choice.h"
 #include "alcove/mesh/normals.h"
 
+#include <functional>
+
 namespace alcove::cli {
 
 /// What to bake, as the command line has it.
@@ -30,10 +32,12 @@ struct Baked {
     double grid_seconds = 0.0, pilot_seconds = 0.0; ///< of the time it took
 };
 
-/// What to say where an RMSE of more than 0.03 may come from walls that the grid is too coarse for; else empty, and where the
-/// method traces no rays, or triangles. `diagonal` of the mesh, scene units; `finest_voxel` that may be asked for, unit space.
+/// What to say where an RMSE of more than 0.03 may come from walls that the grid is too coarse for; else empty, and where
+/// the method traces no rays, or triangles. `diagonal` of the mesh, scene units. `finest_voxel` tells which voxels may be
+/// asked for, unit space: those that are not finer. It is called where there is something to say.
 std::string thin_wall_warning(double rmse, const Method& method, std::span<const Surfel> surfels,
-                              const Occluders& occluders, double diagonal, double finest_voxel);
+                              const Occluders& occluders, double diagonal,
+                              const std::function<double()>& finest_voxel);
 
 /// The mesh as a whole, by the method of the task.
 Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const BakeTask& task,

@@ -55,13 +55,6 @@ void print_warnings(const std::vector<std::string>& warnings, const CommonOption
         std::fputs(fmt::format("alcove: warning: {}\n", warning).c_str(), stderr);
 }
 
-std::string grouped(std::size_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t at = digits.size(); at > 3;)
-        digits.insert(at -= 3, 1, ',');
-    return digits;
-}
-
 std::string extension(const std::string& file) {
     std::string text = std::filesystem::path(file).extension().string();
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });

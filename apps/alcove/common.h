@@ -39,9 +39,6 @@ void add_common_options(CLI::App& verb, CommonOptions& options);
 /// Prints warnings to stderr, a line each, unless quiet; where stderr takes nothing they are lost.
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
 
-/// `3412` as `3,412`.
-std::string grouped(std::size_t number);
-
 /// The extension of a file's name in lower case, with its dot.
 std::string extension(const std::string& file);
 

@@ -18,8 +18,6 @@
 namespace alcove::cli {
 namespace {
 
-constexpr const char* out_of_memory = "alcove: out of memory: use a coarser --voxel\n";
-
 std::array<char, 200> late{}; // what to say when time is up: a handler may not format it
 
 void handle(int signal, void (*handler)(int)) {
@@ -41,13 +39,11 @@ extern "C" void on_interrupt(int signal) {
 }
 
 /// The last words of the program: nothing is destroyed any more, and nothing allocated.
-[[noreturn]] void give_up(const char* line) {
+[[noreturn]] void give_up(const char* words) {
     remove_unfinished_files();
-    if (bar_is_shown && ::write(STDERR_FILENO, clear_bar.data(), clear_bar.size()) < 0)
-        ::_exit(1);
-    if (::write(STDERR_FILENO, line, std::strlen(line)) < 0) {
-        // Nobody is there to read it.
-    }
+    for (const char* part : {bar_is_shown ? clear_bar.data() : "", "alcove: ", words, "\n"})
+        if (::write(STDERR_FILENO, part, std::strlen(part)) < 0)
+            break;
     ::_exit(1);
 }
 
@@ -61,10 +57,10 @@ extern "C" void on_alarm(int) {
             std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
         give_up(out_of_memory);
-    } catch (const std::exception&) {
-        give_up("alcove: a library gave up where nothing could be mended\n");
+    } catch (...) {
+        give_up("a library gave up where nothing could be mended");
     }
-    give_up("alcove: ended for no reason that is known\n");
+    give_up("ended for no reason that is known");
 }
 
 }
@@ -84,8 +80,8 @@ void end_cleanly() {
 void limit_time(double seconds) {
     std::snprintf(
         late.data(), late.size(),
-        "alcove: stopped after the %g s of --time-limit: allow more, or ask for less (fewer --rays, a larger "
-        "--error or --voxel, a smaller --size)\n",
+        "stopped after the %g s of --time-limit: allow more, or ask for less (fewer --rays, a larger "
+        "--error or --voxel, a smaller --size)",
         seconds);
     handle(SIGALRM, on_alarm);
     const double whole = std::floor(seconds);

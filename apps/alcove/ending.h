@@ -3,12 +3,14 @@
 
 namespace alcove::cli {
 
-/// From now on what ends a program by a signal, as SIGINT does, removes what is not written to its end, and then ends it as before; a file
-/// that grows over a limit is an error like that of a full disk. So does what libraries throw where nothing can catch it: too
-/// little memory, as a rule. It becomes one line and exit code 1.
+inline constexpr const char* out_of_memory = "out of memory: use a coarser --voxel";
+
+/// From now on a signal that ends the program, as SIGINT does, first removes what is not written to its end. What a
+/// library throws where nothing can catch it, too little memory as a rule, does so too, and becomes one line and exit
+/// code 1. A file that grows over a limit is an error like that of a full disk.
 void end_cleanly();
 
-/// After so many seconds the program says so in one line and ends with exit code 1, as by a signal. > 0; the last call counts.
+/// After so many seconds, > 0, the program says so in one line and ends with exit code 1, as cleanly. The last call counts.
 void limit_time(double seconds);
 
 }

@@ -1,6 +1,6 @@
 #include "facts.h"
 
-#include "alcove/mesh/file_bytes.h"
+#include "alcove/messages.h"
 
 #include <fmt/format.h>
 

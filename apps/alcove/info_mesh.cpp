@@ -1,9 +1,9 @@
 #include "facts.h"
 
 #include "alcove/mesh/diagnose.h"
-#include "alcove/mesh/file_bytes.h"
 #include "alcove/mesh/obj_document.h"
 #include "alcove/mesh/ply_document.h"
+#include "alcove/messages.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

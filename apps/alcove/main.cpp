@@ -3,7 +3,7 @@
 #include "ending.h"
 
 #include "alcove/errors.h"
-#include "alcove/mesh/file_bytes.h"
+#include "alcove/messages.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     } catch (const alcove::LimitError& error) {
         return complain(bad_input, error.what());
     } catch (const std::bad_alloc&) {
-        return complain(failure, "out of memory: use a coarser --voxel");
+        return complain(failure, alcove::cli::out_of_memory);
     } catch (const std::exception& error) {
         return complain(failure, error.what());
     }

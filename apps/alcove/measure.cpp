@@ -7,6 +7,7 @@
 #include "alcove/atomic_file.h"
 #include "alcove/errors.h"
 #include "alcove/mesh/read.h"
+#include "alcove/messages.h"
 #include "alcove/parallel.h"
 
 #include <CLI/CLI.hpp>

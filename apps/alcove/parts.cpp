@@ -107,9 +107,11 @@ Baked bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const B
             if (!pilot.empty()) {
                 const double rmse = pilot.rmse(values[Channel::ao]);
                 error.add(rmse, surfels.size());
-                const std::string warning = thin_wall_warning(
-                    rmse, *task.method, surfels, occluders, frame.diagonal,
-                    finest_voxel(surface_size(mesh, triangles), triangles.size(), input.options.grid));
+                const std::string warning =
+                    thin_wall_warning(rmse, *task.method, surfels, occluders, frame.diagonal, [&] {
+                        return finest_voxel(surface_size(mesh, triangles), triangles.size(),
+                                            input.options.grid);
+                    });
                 if (!warning.empty())
                     warn(warning);
             }

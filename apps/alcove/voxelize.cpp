@@ -2,6 +2,7 @@
 #include "voxelized.h"
 
 #include "alcove/grid/grid_io.h"
+#include "alcove/messages.h"
 #include "alcove/parallel.h"
 #include "alcove/resident_memory.h"
 

@@ -26,7 +26,7 @@ set(alcove_internal_headers
     grid/triangle_tree.h
     grid/twins.h
     grid/vdb.h
-    grid/vdb_lengths.h
+    grid/vdb_structure.h
     grid/winding.h
     huge_pages.h
     mesh/byte_reader.h
@@ -38,6 +38,7 @@ set(alcove_internal_headers
     mesh/ply_parse.h
     mesh/text_scanner.h
     mesh/weld.h
+    messages.h
     morton.h
     occlusion/neighbourhood.h
     occlusion/quadratic_model.h

@@ -1,4 +1,4 @@
-/// Whatever ends a run, the file that was there before is as it was.
+/// Whatever ends a run, the file that was there before is as it was, or the new one is whole.
 #include "program.h"
 
 #include <unistd.h>
@@ -20,7 +20,7 @@ struct Job {
 };
 
 std::vector<Job> jobs() {
-    const std::string mesh = ALCOVE_REAL_MESHES "/armadillo.off";
+    const std::string mesh = real_mesh("armadillo.off");
     return {{"BakePly", {"bake", mesh, "--rays", "2048", "-o"}, "out.ply"},
             {"BakeObj", {"bake", mesh, "--rays", "2048", "-o"}, "out.obj"},
             {"WriteGrid", {"bake", mesh, "--voxel", "0.15%", "-o", "other.ply", "--write-grid"}, "out.vdb"},
@@ -32,11 +32,7 @@ std::vector<Job> jobs() {
 
 class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
   protected:
-    Faults() {
-        if (!std::filesystem::exists(ALCOVE_REAL_MESHES "/armadillo.off"))
-            missing_ = true;
-        write(GetParam().output, old_);
-    }
+    Faults() { write(GetParam().output, old_); }
     std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
         std::vector<std::string> all = GetParam().arguments;
         all.push_back(GetParam().output);
@@ -67,12 +63,9 @@ class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
     }
 
     const std::string old_ = "what was there before\n";
-    bool missing_ = false;
 };
 
 TEST_P(Faults, FullDisk) {
-    if (missing_)
-        GTEST_SKIP() << "the real meshes are not there";
     largest_file_ = 4096;
     const Outcome outcome = run(quick_arguments());
     EXPECT_EQ(outcome.code, failure) << outcome.err;
@@ -81,8 +74,6 @@ TEST_P(Faults, FullDisk) {
 }
 
 TEST_P(Faults, TimeIsUp) {
-    if (missing_)
-        GTEST_SKIP() << "the real meshes are not there";
     for (const char* seconds : {"0.001", "0.2", "0.4"}) {
         const Outcome outcome = run(arguments({"--time-limit", seconds}));
         EXPECT_EQ(outcome.code, failure) << outcome.err;
@@ -93,8 +84,6 @@ TEST_P(Faults, TimeIsUp) {
 }
 
 TEST_P(Faults, Interrupted) {
-    if (missing_)
-        GTEST_SKIP() << "the real meshes are not there";
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const auto begin = std::chrono::steady_clock::now();
         constexpr int milliseconds = 300;
@@ -107,8 +96,6 @@ TEST_P(Faults, Interrupted) {
 
 /// A signal that comes after the file took its name leaves the new one.
 TEST_P(Faults, InterruptedWhileItWrites) {
-    if (missing_)
-        GTEST_SKIP() << "the real meshes are not there";
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome = run_until_part(quick_arguments(), signal);
         if (outcome.code == done) // before the signal came
@@ -121,16 +108,12 @@ TEST_P(Faults, InterruptedWhileItWrites) {
 
 /// What no program can clean up after is left beside the old file.
 TEST_P(Faults, Killed) {
-    if (missing_)
-        GTEST_SKIP() << "the real meshes are not there";
     EXPECT_EQ(run_until(arguments(), SIGKILL, 300).code, -SIGKILL);
     EXPECT_TRUE(bytes_of(GetParam().output) == old_);
 }
 
 /// Where it suffices, the work is done.
 TEST_P(Faults, LittleMemory) {
-    if (missing_)
-        GTEST_SKIP() << "the real meshes are not there";
     if (GetParam().output == "out.html")
         GTEST_SKIP() << "a report is written whole, and tells itself what did not fit in memory";
     int refused = 0;

@@ -122,11 +122,13 @@ std::vector<Extreme> damages() {
     add("faces with a corner at 1e38", "a refusal in one line: in a box that large nothing has an area", [] {
         return refused<InputError>([] { const Baked baked(with_corner_at(bumpy(), Vec3d(1e38, 0, 0))); });
     });
-    add("all faces twice", close, [=] { return against_exact(with_faces_twice(bumpy()), rays, bound); });
+    add("all faces twice", close,
+        [=] { return against_exact(Baked(with_faces_twice(bumpy())), rays, bound); });
     add("all faces twice, once from behind", close,
-        [=] { return against_exact(with_backs(bumpy()), rays, bound); });
-    add("all faces inside out", close,
-        [=] { return against_exact(flipped(bumpy(), [](std::size_t) { return true; }), rays, bound); });
+        [=] { return against_exact(Baked(with_backs(bumpy())), rays, bound); });
+    add("all faces inside out", close, [=] {
+        return against_exact(Baked(flipped(bumpy(), [](std::size_t) { return true; })), rays, bound);
+    });
     add("a third of the faces inside out", "a warning that counts the edges between them", [=] {
         const Baked baked(flipped(bumpy(), [](std::size_t f) { return f % 3 == 0; }));
         const std::vector<std::string> warnings = baked.warnings();
@@ -137,9 +139,9 @@ std::vector<Extreme> damages() {
                       told == warnings.end() ? "" : *told};
     });
     add("one face is missing", close,
-        [=] { return against_exact(without_face(bumpy(), 1234), rays, bound); });
+        [=] { return against_exact(Baked(without_face(bumpy(), 1234)), rays, bound); });
     add("a shell within a shell", close,
-        [=] { return against_exact(together(bumpy(), 0.8, Vec3d(0.0)), rays, bound); });
+        [=] { return against_exact(Baked(together(bumpy(), 0.8, Vec3d(0.0))), rays, bound); });
     add("two bodies through each other",
         "RMSE of 0.05 against exact rays where they are not inside: the seam is sharper than any voxel",
         [=] { return outside_against_exact(together(bumpy(), 0.9, Vec3d(0.7, 0.2, 0.1)), rays, 0.05); });

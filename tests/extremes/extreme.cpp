@@ -3,6 +3,7 @@
 #include "alcove/errors.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -20,8 +21,21 @@ GridStack stack_of(const MeasuredMesh& mesh, const Baking& baking) {
     return voxelize(mesh.mesh, mesh.triangles, options);
 }
 
-double largest_difference(std::span<const float> a, std::span<const float> b) {
-    return compare(a, b.first(a.size())).max;
+/// One of the figures for each method.
+Result differences(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound,
+                   double ErrorFigures::*figure) {
+    const Baked unit(reference), changed(mesh);
+    Result result;
+    for (const std::string_view method : methods) {
+        const std::vector<float> a = unit.by(method), b = changed.by(method);
+        result.figures.push_back(
+            {std::string(method), compare(a, std::span(b).first(a.size())).*figure, bound});
+    }
+    return result;
+}
+
+std::string joined(const std::vector<std::string>& warnings) {
+    return fmt::format("{}", fmt::join(warnings, "; "));
 }
 
 }
@@ -68,47 +82,30 @@ std::vector<std::string> Baked::warnings() const {
     return all;
 }
 
-Result against_exact(const Mesh& mesh, const Methods& methods, double bound, const Baking& baking) {
-    const Baked baked(mesh, baking);
+Result against_exact(const Baked& baked, const Methods& methods, double bound) {
     const std::vector<float> truth = baked.truth();
-    Result result;
+    Result result{{}, joined(baked.warnings())};
     for (const std::string_view method : methods)
         result.figures.push_back({std::string(method), compare(baked.by(method), truth).rmse, bound});
-    for (const std::string& warning : baked.warnings())
-        result.note += (result.note.empty() ? "" : "; ") + warning;
     return result;
 }
 
-Result against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound,
-               const Baking& baking) {
-    const Baked unit(reference, baking), changed(mesh, baking);
-    Result result;
-    for (const std::string_view method : methods)
-        result.figures.push_back(
-            {std::string(method), largest_difference(unit.by(method), changed.by(method)), bound});
-    return result;
-}
-
-Result rmse_against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound) {
-    const Baked unit(reference), changed(mesh);
-    Result result;
-    for (const std::string_view method : methods) {
-        const std::vector<float> a = unit.by(method), b = changed.by(method);
-        result.figures.push_back({std::string(method), compare(a, std::span(b).first(a.size())).rmse, bound});
-    }
-    return result;
-}
-
-Result against_value(const Mesh& mesh, float value, const Methods& methods, double bound,
-                     const Baking& baking) {
-    const Baked baked(mesh, baking);
-    Result result;
+Result against_value(const Baked& baked, float value, const Methods& methods, double bound) {
+    Result result{{}, joined(baked.warnings())};
     for (const std::string_view method : methods) {
         const std::vector<float> ao = baked.by(method);
         result.figures.push_back(
-            {std::string(method), largest_difference(ao, std::vector<float>(ao.size(), value)), bound});
+            {std::string(method), compare(ao, std::vector<float>(ao.size(), value)).max, bound});
     }
     return result;
+}
+
+Result against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound) {
+    return differences(reference, mesh, methods, bound, &ErrorFigures::max);
+}
+
+Result rmse_against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound) {
+    return differences(reference, mesh, methods, bound, &ErrorFigures::rmse);
 }
 
 std::vector<Extreme> all_extremes() {

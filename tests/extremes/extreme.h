@@ -67,7 +67,7 @@ class Baked {
     std::vector<float> truth() const;
     std::vector<std::string> warnings() const;
     /// That walls too thin for the grid would take, unit space; 0 where there are none.
-    float resolving_voxel() const { return walls_.share > 0.005 ? walls_.voxel : 0.0f; }
+    float resolving_voxel() const { return walls_.noticeable() ? walls_.voxel : 0.0f; }
     const MeasuredMesh& mesh() const { return mesh_; }
 
   private:
@@ -79,17 +79,14 @@ class Baked {
 };
 
 /// The RMSE of each method against exact rays, with the warnings as its note.
-Result against_exact(const Mesh& mesh, const Methods& methods, double bound, const Baking& baking = {});
+Result against_exact(const Baked& baked, const Methods& methods, double bound);
 
-/// The largest difference of each method at the vertices of `reference`, which are the first of the mesh; or the RMSE.
-Result against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound,
-               const Baking& baking = {});
+/// The largest difference of each method from one value, with the warnings as its note.
+Result against_value(const Baked& baked, float value, const Methods& methods, double bound);
 
+/// The largest difference of each method, or the RMSE, at the vertices of `reference`, which are the first of the mesh.
+Result against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound);
 Result rmse_against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound);
-
-/// The largest difference of each method from one value.
-Result against_value(const Mesh& mesh, float value, const Methods& methods, double bound,
-                     const Baking& baking = {});
 
 /// A figure of 0 where `attempt` throws an E, with its message as the note; else infinity.
 template <class E>

@@ -59,10 +59,11 @@ std::vector<Extreme> shapes() {
                                      std::pair("1 : 1e-2 : 1e-5", Vec3d(1, 1e-2, 1e-5))})
         add(name, "1 everywhere: nothing occludes a convex body; 0.02 for what the grid rounds",
             [half = half] {
-                return against_value(test::box_mesh(half, 8), 1.0f, {"traced", "guided", "exact"}, 0.02);
+                return against_value(Baked(test::box_mesh(half, 8)), 1.0f, {"traced", "guided", "exact"},
+                                     0.02);
             });
     add("needles 1 : 3e3", "1 everywhere", [] {
-        return against_value(needle_cylinder(10000), 1.0f, {"traced", "guided", "exact"}, 0.02);
+        return against_value(Baked(needle_cylinder(10000)), 1.0f, {"traced", "guided", "exact"}, 0.02);
     });
     for (const double share : {1e-3, 1e-6, 1e-9})
         add(fmt::format("slivers, {:g} of their length high", share),
@@ -73,13 +74,13 @@ std::vector<Extreme> shapes() {
         Mesh mesh;
         mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
         mesh.add_face(std::array{0u, 1u, 2u});
-        return against_value(mesh, 1.0f, all_kinds, 0.02);
+        return against_value(Baked(mesh), 1.0f, all_kinds, 0.02);
     });
     add("a single triangle of 1e-9 of a right one", "1 on both sides", [] {
         Mesh mesh;
         mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.3, 1e-9, 0}};
         mesh.add_face(std::array{0u, 1u, 2u});
-        return against_value(mesh, 1.0f, {"traced", "guided", "exact"}, 0.02);
+        return against_value(Baked(mesh), 1.0f, {"traced", "guided", "exact"}, 0.02);
     });
     return rows;
 }

@@ -34,17 +34,18 @@ Mesh wall_on_block(double thickness) {
 /// Over the bound a warning has to name the voxel that tells the walls, and that voxel has to keep the bound, unless memory
 /// has none for it and the warning names guided alone.
 Result told_or_warned(const Mesh& mesh, const Baking& baking = {}) {
-    Result result = against_exact(mesh, rays, bound, baking);
+    const Baked baked(mesh, baking);
+    Result result = against_exact(baked, rays, bound);
     Figure& traced = result.figures.front();
-    const float resolving = Baked(mesh, baking).resolving_voxel();
+    const float resolving = baked.resolving_voxel();
     if (traced.holds() || resolving == 0.0f)
         return result;
     result.note += fmt::format(" (traced without it: {:.2g})", traced.value);
     Baking finer = baking;
     finer.voxel = resolving;
     try {
-        traced = {"traced, at that voxel",
-                  against_exact(mesh, {"traced"}, bound, finer).figures.front().value, bound};
+        traced = against_exact(Baked(mesh, finer), {"traced"}, bound).figures.front();
+        traced.of = "traced, at that voxel";
     } catch (const LimitError& refusal) {
         result.figures.erase(result.figures.begin());
         result.note += std::string("; ") + refusal.what();

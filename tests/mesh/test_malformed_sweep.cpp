@@ -3,6 +3,7 @@
 
 #include "alcove/errors.h"
 #include "alcove/mesh/formats.h"
+#include "alcove/messages.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 #include "alcove/grid/distances.h"
 #include "alcove/grid/grid_checksum.h"
 #include "alcove/grid/vdb.h"
-#include "alcove/grid/vdb_lengths.h"
-#include "alcove/mesh/file_bytes.h"
+#include "alcove/grid/vdb_structure.h"
 #include "alcove/mesh/mesh.h"
+#include "alcove/messages.h"
 #include "alcove/parallel.h"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file))
         refuse(file, "cannot be opened for reading: check the name");
-    check_vdb_lengths(file);
+    check_vdb_structure(file);
     try {
         openvdb::initialize();
         // Else a count that is damaged is counted to the end.

@@ -4,6 +4,7 @@
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/obj_document.h"
 #include "alcove/mesh/text_scanner.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 #include "alcove/mesh/obj_document.h"
 #include "alcove/mesh/ply_document.h"
 #include "alcove/mesh/text_scanner.h"
+#include "alcove/messages.h"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/text_scanner.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <cmath>

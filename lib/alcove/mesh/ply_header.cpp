@@ -1,4 +1,5 @@
 #include "alcove/mesh/ply_parse.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <charconv>

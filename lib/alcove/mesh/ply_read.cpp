@@ -2,6 +2,7 @@
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/ply_parse.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <array>

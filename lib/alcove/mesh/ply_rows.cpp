@@ -1,6 +1,7 @@
 #include "alcove/huge_pages.h"
 #include "alcove/mesh/ply_parse.h"
 #include "alcove/mesh/text_scanner.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/obj_document.h"
 #include "alcove/mesh/ply_document.h"
+#include "alcove/messages.h"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 
 #include "alcove/errors.h"
 #include "alcove/mesh/formats.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <cctype>

@@ -4,6 +4,7 @@
 #include "alcove/mesh/formats.h"
 #include "alcove/mesh/text_scanner.h"
 #include "alcove/mesh/weld.h"
+#include "alcove/messages.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/mesh/file_bytes.h"
+#include "alcove/messages.h"
 
 #include <fast_float/fast_float.h>
 

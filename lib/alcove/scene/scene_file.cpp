@@ -2,6 +2,7 @@
 
 #include "alcove/errors.h"
 #include "alcove/mesh/file_bytes.h"
+#include "alcove/messages.h"
 #include "alcove/scene/toml_depth.h"
 #include "alcove/scene/toml_table.h"
 

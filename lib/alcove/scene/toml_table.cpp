@@ -2,7 +2,7 @@
 
 #include "alcove/edit_distance.h"
 #include "alcove/errors.h"
-#include "alcove/mesh/file_bytes.h"
+#include "alcove/messages.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

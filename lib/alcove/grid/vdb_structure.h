@@ -1,4 +1,4 @@
-/// A look at the header of a .vdb before OpenVDB reads it, which believes every length that the header names.
+/// A look at a .vdb before OpenVDB reads it, which believes what the file says of itself.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,6 @@ namespace alcove {
 /// values it is of, where places or masks that are stored twice differ, a transform contradicts itself, zipped values do
 /// not unpack, or bytes are left over; and for grids of floats that OpenVDB before 2.0 (2013) wrote. Grids of other types are
 /// passed over. What is no .vdb passes: OpenVDB says so better. Cost: reads the file once, and unzips what is zipped.
-void check_vdb_lengths(const std::filesystem::path& file);
+void check_vdb_structure(const std::filesystem::path& file);
 
 }

@@ -1,7 +1,7 @@
-#include "alcove/grid/vdb_lengths.h"
+#include "alcove/grid/vdb_structure.h"
 
 #include "alcove/errors.h"
-#include "alcove/mesh/file_bytes.h"
+#include "alcove/messages.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -363,7 +363,7 @@ void check_grid(Header& header, bool has_offsets) {
 
 }
 
-void check_vdb_lengths(const std::filesystem::path& file) {
+void check_vdb_structure(const std::filesystem::path& file) {
     Header header(file);
     if (header.number<std::int64_t>() != magic)
         return;
