@@ -8,6 +8,8 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -91,6 +93,7 @@ pid_t ProgramTest::start(std::vector<std::string> arguments) const {
             const rlimit limit{most_memory_, most_memory_};
             ::setrlimit(RLIMIT_AS, &limit);
         }
+        ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);
         if (::chdir(work.c_str()) == 0)
             ::execv(words.front(), words.data());
         ::_exit(127);

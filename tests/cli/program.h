@@ -25,7 +25,7 @@ class ProgramTest : public testing::Test {
     ProgramTest();
     ~ProgramTest() override;
 
-    /// stdin is closed, stdout and stderr are no terminals.
+    /// stdin is closed, stdout and stderr are no terminals; permissions of files bind root too.
     Outcome run(std::vector<std::string> arguments) const;
 
     /// The same, ended by a signal some milliseconds after it began, if it is not done by then.

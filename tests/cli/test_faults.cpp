@@ -1,8 +1,6 @@
 /// Whatever ends a run, the file that was there before is as it was, or the new one is whole.
 #include "program.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
 #include <sstream>
@@ -53,6 +51,15 @@ class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
     void expect_no_parts() const {
         for (const std::string& file : files())
             EXPECT_FALSE(file.starts_with(".alcove-")) << file;
+    }
+    /// Of an output that is seen to be out of reach before any work.
+    void expect_failure_at_once() const {
+        const Outcome outcome = run(arguments({"--time-limit", "1"}));
+        EXPECT_EQ(outcome.code, failure) << outcome.err;
+        EXPECT_NE(outcome.err.find(": cannot be written: Permission denied"), std::string::npos)
+            << outcome.err;
+        expect_one_line(outcome);
+        expect_untouched();
     }
     static void expect_one_line(const Outcome& outcome) {
         std::size_t errors = 0;
@@ -135,11 +142,25 @@ TEST_P(Faults, LittleMemory) {
 }
 
 TEST_P(Faults, ReadOnlyFile) {
-    if (::geteuid() == 0)
-        GTEST_SKIP() << "root may write anywhere: files without permission are not tried";
     std::filesystem::permissions(folder_ / "work" / GetParam().output, std::filesystem::perms::owner_read);
-    EXPECT_EQ(run(arguments()).code, failure);
-    expect_untouched();
+    expect_failure_at_once();
+}
+
+TEST_P(Faults, ReadOnlyFolder) {
+    using std::filesystem::perms;
+    std::filesystem::permissions(folder_ / "work", perms::owner_read | perms::owner_exec);
+    expect_failure_at_once();
+    std::filesystem::permissions(folder_ / "work", perms::owner_all);
+}
+
+TEST_P(Faults, OutputIsAFolder) {
+    std::filesystem::remove(folder_ / "work" / GetParam().output);
+    std::filesystem::create_directory(folder_ / "work" / GetParam().output);
+    const std::vector<std::string> before = files();
+    const Outcome outcome = run(arguments());
+    EXPECT_EQ(outcome.code, failure) << outcome.err;
+    EXPECT_NE(outcome.err.find("folder"), std::string::npos) << outcome.err;
+    EXPECT_EQ(files(), before);
 }
 
 INSTANTIATE_TEST_SUITE_P(Jobs, Faults, testing::ValuesIn(jobs()),
