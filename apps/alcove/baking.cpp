@@ -1,5 +1,7 @@
 #include "baking.h"
 
+#include "time_estimate.h"
+
 #include "alcove/accuracy/planned_bake.h"
 #include "alcove/accuracy/thin_walls.h"
 #include "alcove/grid/plan.h"
@@ -45,6 +47,7 @@ Baked bake_whole(VoxelizedMesh& input, const Surroundings& surroundings, const B
         surroundings.around(input.mesh, input.triangles, input.stack, input.frame, needs);
     Baked baked{choice_of(*task.method, task.settings), {}, facts_of(input.stack)};
     baked.grid_seconds = watch.lap();
+    refuse_late_bake(surfels, occluders, *task.method, task.settings, task.wanted);
     baked.values = bake_channels(surfels, occluders, *task.method, task.settings, task.wanted, progress);
     watch.lap();
     if (with_pilot) {
@@ -98,17 +101,17 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
     const SurfaceSize size = surface_size(input.mesh, input.triangles);
     const double finest = surroundings.fit() ? finest_voxel(size, input.triangles.size(), input.options.grid)
                                              : std::numeric_limits<double>::infinity();
-    PlannedBake planned = bake_planned(surfels, surface, make_field, pilot,
-                                       {.error = *task.planning.error,
-                                        .radius = radius,
-                                        .seed = task.seed,
-                                        .surfels = surfels.size(),
-                                        .triangles = input.triangles.size(),
-                                        .area = size.area,
-                                        .finest_voxel = finest,
-                                        .has_grid = has_grid,
-                                        .wanted = task.wanted},
-                                       progress);
+    const PlanRequest request{.error = *task.planning.error,
+                              .radius = radius,
+                              .seed = task.seed,
+                              .surfels = surfels.size(),
+                              .triangles = input.triangles.size(),
+                              .area = size.area,
+                              .finest_voxel = finest,
+                              .has_grid = has_grid,
+                              .wanted = task.wanted};
+    refuse_late_plan(request, pilot);
+    PlannedBake planned = bake_planned(surfels, surface, make_field, pilot, request, progress);
     baked.choice = planned.plan.choice;
     baked.values = std::move(planned.values);
     if (has_grid)

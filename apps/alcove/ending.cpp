@@ -7,18 +7,24 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace alcove::cli {
 namespace {
 
 std::array<char, 200> late{}; // what to say when time is up: a handler may not format it
+
+using Clock = std::chrono::steady_clock;
+std::optional<std::pair<Clock::time_point, double>> limited; // since when, and to how many seconds
 
 void handle(int signal, void (*handler)(int)) {
     struct sigaction action {};
@@ -78,6 +84,7 @@ void end_cleanly() {
 }
 
 void limit_time(double seconds) {
+    limited.emplace(Clock::now(), seconds);
     std::snprintf(
         late.data(), late.size(),
         "stopped after the %g s of --time-limit: allow more, or ask for less (fewer --rays, a larger "
@@ -91,6 +98,14 @@ void limit_time(double seconds) {
     if (timer.it_value.tv_sec == 0 && timer.it_value.tv_usec == 0)
         timer.it_value.tv_usec = 1;
     ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+std::optional<TimeLimit> time_limit() {
+    if (!limited)
+        return {};
+    const auto& [since, seconds] = *limited;
+    const double gone = std::chrono::duration<double>(Clock::now() - since).count();
+    return TimeLimit{seconds, std::max(seconds - gone, 0.0)};
 }
 
 }

@@ -1,6 +1,8 @@
 /// How the program ends before its time: without a part of a file left behind.
 #pragma once
 
+#include <optional>
+
 namespace alcove::cli {
 
 inline constexpr const char* out_of_memory = "out of memory: use a coarser --voxel";
@@ -12,5 +14,13 @@ void end_cleanly();
 
 /// After so many seconds, > 0, the program says so in one line and ends with exit code 1, as cleanly. The last call counts.
 void limit_time(double seconds);
+
+struct TimeLimit {
+    double seconds; ///< in all
+    double left;    ///< wall clock, ≥ 0
+};
+
+/// The one that was set, if one was.
+std::optional<TimeLimit> time_limit();
 
 }

@@ -1,6 +1,7 @@
 #include "common.h"
 #include "image_output.h"
 #include "scene_options.h"
+#include "time_estimate.h"
 
 #include "alcove/render/turntable.h"
 #include "alcove/resident_memory.h"
@@ -50,10 +51,10 @@ Axis axis_of(const Scene& scene, const Staged& staged) {
         scene.camera.up};
 }
 
-Camera camera_of(const Options& options, const Scene& scene, const Staged& staged) {
+Camera camera_of(const Options& options, const Scene& scene, const Staged& staged, ImageSize size) {
     if (!options.frames || scene.camera.eye)
-        return make_camera(scene.camera, staged.points, scene.size);
-    return make_camera(scene.camera, swept(staged.points, axis_of(scene, staged)), scene.size);
+        return make_camera(scene.camera, staged.points, size);
+    return make_camera(scene.camera, swept(staged.points, axis_of(scene, staged)), size);
 }
 
 nlohmann::ordered_json triple(const Vec3d& v) {
@@ -88,7 +89,11 @@ void run(const Options& options) {
     const std::string comments = fmt::format(
         "{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
         std::filesystem::path(options.scene.input).filename().string(), method, radius, staged.voxel);
-    const Camera start = camera_of(options, scene, staged);
+    const Camera start = camera_of(options, scene, staged, scene.size);
+    refuse_late_pictures(scene.size, frames.size(), [&](ImageSize size) {
+        const Camera camera = camera_of(options, scene, staged, size);
+        render(staged.subject, camera, rendering_of(scene, staged, camera, output.passes()));
+    });
     double rendering = 0.0, writing = 0.0;
     std::size_t covered = 0;
     {

@@ -31,9 +31,14 @@ ImageSize parse_size(const std::string& text) {
     return size;
 }
 
-void check_size(const ImageSize& size, PassSet passes) {
-    // Beside the image, its encoded form is in memory once more.
-    const double bytes = 2.0 * Image::bytes_per_pixel(passes) * size.width * size.height;
+void check_size(const Scene& scene, PassSet passes) {
+    const ImageSize& size = scene.size;
+    const ImageMethod* const method = scene.occlusion.image_method;
+    // Beside the image, what a method of the picture keeps, later its encoded form.
+    const double image_bytes = Image::bytes_per_pixel(passes);
+    const double bytes_per_pixel =
+        image_bytes + std::max(image_bytes, method ? method->bytes_per_pixel : 0.0);
+    const double bytes = bytes_per_pixel * size.width * size.height;
     if (bytes > memory_limit || std::max(size.width, size.height) > longest_side)
         throw UsageError(
             fmt::format("a picture of {}x{} pixels takes about {:.3g} GB; the limits are {:.0f} GB and {} "
@@ -132,9 +137,9 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
         scene.light.casts_shadow = false;
     if (!request.size.empty())
         scene.size = parse_size(request.size);
-    check_size(scene.size, passes);
     scene.samples = request.pixel_samples.value_or(scene.samples);
     choose_occlusion(request, scene.occlusion);
+    check_size(scene, passes);
     aim(request, scene.camera);
     return scene;
 }

@@ -26,8 +26,8 @@ struct SceneRequest {
 /// Adds the input, and the options of all these.
 void add_scene_options(CLI::App& verb, SceneRequest& request);
 
-/// The passes tell how much memory the picture takes. A .toml is a scene, a .vdb a level set, all else a mesh; these are seen on a ground. \throw UsageError, and what
-/// read_scene() throws.
+/// A .toml is a scene, a .vdb a level set, all else a mesh; these are seen on a ground. The passes tell how much memory the
+/// picture takes. \throw UsageError, and what read_scene() throws.
 Scene requested_scene(const SceneRequest& request, PassSet passes);
 
 }

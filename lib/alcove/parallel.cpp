@@ -2,6 +2,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,6 +14,12 @@ void parallel_for(std::size_t count, std::size_t grain,
     const std::size_t blocks = (count + grain - 1) / grain;
     tbb::parallel_for(std::size_t{0}, blocks,
                       [&](std::size_t block) { body(block * grain, std::min(count, (block + 1) * grain)); });
+}
+
+std::size_t thread_count() {
+    return std::min<std::size_t>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+        static_cast<std::size_t>(tbb::info::default_concurrency()));
 }
 
 ThreadLimit::ThreadLimit(unsigned threads) {

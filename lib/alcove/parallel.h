@@ -12,6 +12,9 @@ namespace alcove {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// How many threads work on a parallel loop from now on, as far as there are cores; ≥ 1.
+std::size_t thread_count();
+
 /// While alive, at most `threads` threads work on parallel loops; 0 means one per core.
 class ThreadLimit {
   public:

@@ -169,6 +169,12 @@ TEST_F(RenderVerb, WrongScenesAreNamedWithTheMend) {
     write("cube.toml", "[[object]]\nshape = \"box\"\n");
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--voxel", "1%"}, usage, {"--voxel", "cube.toml"});
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--size", "4x"}, usage, {"--size", "1280x720"});
+    // What a method of the picture keeps counts; no file is read before.
+    std::vector<std::string> large{"render", "none.off",   "-o",       "a.png",
+                                   "--size", "14000x8000", "--method", "classic"};
+    expect_refusal(large, bad_input, {"none.off"});
+    large.back() = "screen_space";
+    expect_refusal(large, usage, {"14000x8000", "6.27 GB", "smaller --size"});
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--pixel-samples", "0"}, usage,
                    {"--pixel-samples"});
     const std::vector<std::string> left = files();

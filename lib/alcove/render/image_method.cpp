@@ -11,7 +11,8 @@ namespace {
 
 template <class M>
 constexpr ImageMethod method() {
-    return {info_of<M>(), [](const Subject& subject, const Camera& camera, const Settings& settings) {
+    return {info_of<M>(), M::bytes_per_pixel,
+            [](const Subject& subject, const Camera& camera, const Settings& settings) {
                 return with_settings<M>(settings)(subject, camera);
             }};
 }

@@ -11,6 +11,7 @@ namespace alcove {
 
 /// A method behind a function pointer, as its struct describes itself.
 struct ImageMethod : MethodInfo {
+    double bytes_per_pixel; ///< of memory while it works
     /// Visibility of every pixel at its centre, row after row from the top left, in [0, 1]; anything where nothing is
     /// seen.
     std::vector<float> (*occlusion)(const Subject& subject, const Camera& camera, const Settings& settings);

@@ -29,6 +29,8 @@ struct MarchSteps {
     static constexpr std::string_view bad =
         "no occlusion: depends on the eye, and flat ground darkens toward the horizon";
 
+    static constexpr double bytes_per_pixel = sizeof(float);
+
     static constexpr auto parameters() {
         return std::array{
             parameter<&MarchSteps::max_steps>("max_steps", 2, 4096, "steps", "where it is black")};

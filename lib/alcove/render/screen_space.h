@@ -46,6 +46,9 @@ struct ScreenSpace {
     static constexpr std::string_view bad =
         "blind to what is not seen, outside the image or behind what is in front";
 
+    /// A depth, a normal, a place, and the occlusion before, between and after its blurs.
+    static constexpr double bytes_per_pixel = sizeof(float) + 2 * sizeof(Vec3) + 3 * sizeof(float);
+
     static constexpr auto parameters() {
         return std::array{
             parameter<&ScreenSpace::samples>("samples", 1, 4096, "samples", "of the hemisphere"),
