@@ -124,8 +124,9 @@ class PolygonCutter {
         });
         // Of a simple polygon the ears elsewhere stay what they are; corners that touched an ear's edge may
         // not.
-        ear_[before] = is_ear(before);
-        ear_[after] = is_ear(after);
+        set_ear(i, false);
+        set_ear(before, is_ear(before));
+        set_ear(after, is_ear(after));
     }
 
     void clip_ears(const Vec3d& normal) {
@@ -142,6 +143,8 @@ class PolygonCutter {
             if (turn_at(i) <= flat)
                 reflex_.push_back(i);
 
+        ear_.assign(count, false);
+        ears_ = 0;
         find_ears(0);
         std::size_t at = 0, rounds = 0;
         for (std::size_t left = count; left > 3; --left) {
@@ -159,11 +162,15 @@ class PolygonCutter {
         emit(previous_[at], at, next_[at]);
     }
 
+    void set_ear(std::size_t i, bool is) {
+        ears_ += std::size_t{is} - std::size_t{ear_[i] != 0};
+        ear_[i] = is;
+    }
+
     void find_ears(std::size_t start) {
-        ear_.resize(face_.size());
         std::size_t i = start;
         do {
-            ear_[i] = is_ear(i);
+            set_ear(i, is_ear(i));
             i = next_[i];
         } while (i != start);
     }
@@ -171,9 +178,9 @@ class PolygonCutter {
     /// The next ear, or `start` where none is known.
     std::size_t ear_from(std::size_t start) const {
         std::size_t i = start;
-        while (!ear_[i] && next_[i] != start)
+        while (ears_ > 0 && !ear_[i])
             i = next_[i];
-        return ear_[i] ? i : start;
+        return i;
     }
 
     std::size_t sharpest_from(std::size_t start) const {
@@ -191,6 +198,7 @@ class PolygonCutter {
     std::vector<Vec2d> flat_;
     std::vector<std::size_t> previous_, next_, reflex_;
     std::vector<char> ear_;
+    std::size_t ears_ = 0; ///< of those that are left
 };
 
 /// Triangulates the faces [begin, end).
