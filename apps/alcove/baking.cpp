@@ -3,8 +3,8 @@
 #include "time_estimate.h"
 
 #include "alcove/accuracy/planned_bake.h"
-#include "alcove/accuracy/thin_walls.h"
 #include "alcove/grid/plan.h"
+#include "alcove/occlusion/thin_walls.h"
 
 #include <fmt/format.h>
 

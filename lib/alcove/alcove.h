@@ -57,6 +57,8 @@
 #include "alcove/occlusion/network.h"
 #include "alcove/occlusion/occluders.h"
 #include "alcove/occlusion/parameter.h"
+#include "alcove/occlusion/subset.h"
+#include "alcove/occlusion/thin_walls.h"
 
 #include "alcove/occlusion/methods/calibrated.h"
 #include "alcove/occlusion/methods/calibrated_inputs.h"
@@ -103,5 +105,3 @@
 #include "alcove/accuracy/planned_bake.h"
 #include "alcove/accuracy/planner.h"
 #include "alcove/accuracy/report.h"
-#include "alcove/accuracy/subset.h"
-#include "alcove/accuracy/thin_walls.h"

@@ -52,6 +52,7 @@ set(alcove_internal_headers
     render/snap.h
     resident_memory.h
     scene/corner_normals.h
+    scene/missing_walls.h
     scene/pose.h
     scene/prop_fields.h
     scene/props.h

@@ -1,7 +1,7 @@
 #include "alcove/accuracy/pilot.h"
 
 #include "alcove/accuracy/measure.h"
-#include "alcove/accuracy/subset.h"
+#include "alcove/occlusion/subset.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>

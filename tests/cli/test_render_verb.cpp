@@ -1,6 +1,9 @@
 #include "program.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace alcove::test {
 namespace {
@@ -179,6 +182,38 @@ TEST_F(RenderVerb, WrongScenesAreNamedWithTheMend) {
                    {"--pixel-samples"});
     const std::vector<std::string> left = files();
     EXPECT_EQ(std::count(left.begin(), left.end(), "a.png"), 0);
+}
+
+/// A plate that stands turned on the ground, as high as it is wide.
+std::string plate_off(double thickness) {
+    std::string text = "OFF\n8 6 0\n";
+    for (int i = 0; i < 8; ++i) {
+        const double x = i % 2, y = i / 2 % 2, z = (i / 4) * thickness, cosine = 0.8, sine = 0.6;
+        text += fmt::format("{} {} {}\n", cosine * x - sine * z, y, sine * x + cosine * z);
+    }
+    return text + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+}
+
+TEST_F(RenderVerb, WarnsOfWallsWithHolesAndNamesTheVoxelThatMendsThem) {
+    const double voxel = std::sqrt(2.0) / 256.0;
+    const auto draw_plate = [&](double thickness, const std::vector<std::string>& more = {}) {
+        write("plate.off", plate_off(thickness));
+        std::vector<std::string> arguments{"plate.off", "-o", "a.png", "--method", "none", "--no-ground"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return draw(arguments);
+    };
+    const Outcome whole = draw_plate(3.0 * voxel), holed = draw_plate(0.4 * voxel);
+    EXPECT_EQ(whole.err, "");
+    EXPECT_LT(holed.json().at("covered_pixels"), 0.9 * whole.json().at("covered_pixels").get<double>());
+    const std::string use = "and have holes: use a voxel of ";
+    const std::size_t at = holed.err.find(use);
+    ASSERT_NE(at, std::string::npos) << holed.err;
+    const std::string told = holed.err.substr(at + use.size(), holed.err.find('%', at) + 1 - at - use.size());
+    const Outcome mended = draw_plate(0.4 * voxel, {"--voxel", told});
+    EXPECT_EQ(mended.err, "");
+    EXPECT_GT(mended.json().at("covered_pixels"), 0.95 * whole.json().at("covered_pixels").get<double>());
+    EXPECT_EQ(draw({real_mesh("reference_tetrahedron.off"), "-o", "a.png", "--method", "none"}).err, "")
+        << "edges are no walls";
 }
 
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "alcove/accuracy/measure.h"
-#include "alcove/accuracy/thin_walls.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/occlusion/thin_walls.h"
 
 #include <functional>
 #include <limits>

@@ -2,11 +2,11 @@
 
 #include "alcove/accuracy/counting_field.h"
 #include "alcove/accuracy/heat_map.h"
-#include "alcove/accuracy/subset.h"
 #include "alcove/errors.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
+#include "alcove/occlusion/subset.h"
 #include "alcove/resident_memory.h"
 
 #include <ctime>

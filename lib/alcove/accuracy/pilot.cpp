@@ -1,7 +1,7 @@
 #include "alcove/accuracy/pilot.h"
 
 #include "alcove/accuracy/error_figures.h"
-#include "alcove/accuracy/subset.h"
+#include "alcove/occlusion/subset.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include "alcove/field/blend.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/mesh_grid.h"
+#include "alcove/scene/missing_walls.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +44,7 @@ float in_unit_of(const Frame& own, float length, const Prop& prop, const Stage& 
     return static_cast<float>(double(length) * stage.frame.diagonal / (own.diagonal * prop.pose.scale));
 }
 
-void voxelize_mesh(const MeshShape& shape, Prop& prop, const Stage& stage, bool inside) {
+AnyField voxelized(const MeshShape& shape, Prop& prop, const Stage& stage, bool inside) {
     const Frame own = frame_of(prop.mesh.box());
     VoxelizeOptions options;
     options.sign = shape.sign;
@@ -63,8 +64,12 @@ void voxelize_mesh(const MeshShape& shape, Prop& prop, const Stage& stage, bool 
     } catch (const LimitError& error) {
         throw LimitError(shape.file.string() + ": " + error.what());
     }
+    AnyField field = put_stack(prop, stage);
     const std::vector<std::string>& warnings = prop.stack.warnings;
     prop.warnings.insert(prop.warnings.end(), warnings.begin(), warnings.end());
+    if (std::string missing = missing_walls(prop, field, stage.frame, options.grid); !missing.empty())
+        prop.warnings.push_back(std::move(missing));
+    return field;
 }
 
 void extend_grid(const GridShape& shape, Prop& prop, const Stage& stage, bool inside) {
@@ -140,10 +145,7 @@ AnyField field_of(Prop& prop, const Stage& stage, bool inside) {
                                   own, prop, stage);
                    },
                    [&](const PlaneShape&) { return AnyField(plane_of(prop, stage.frame)); },
-                   [&](const MeshShape& s) {
-                       voxelize_mesh(s, prop, stage, inside);
-                       return put_stack(prop, stage);
-                   },
+                   [&](const MeshShape& s) { return voxelized(s, prop, stage, inside); },
                    [&](const GridShape& s) {
                        extend_grid(s, prop, stage, inside);
                        return put_stack(prop, stage);

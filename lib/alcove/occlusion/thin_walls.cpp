@@ -1,6 +1,6 @@
-#include "alcove/accuracy/thin_walls.h"
+#include "alcove/occlusion/thin_walls.h"
 
-#include "alcove/accuracy/subset.h"
+#include "alcove/occlusion/subset.h"
 #include "alcove/parallel.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "alcove/accuracy/subset.h"
+#include "alcove/occlusion/subset.h"
 
 #include <algorithm>
 
