@@ -32,7 +32,7 @@ std::string thin_wall_warning(double rmse, const Method& method, std::span<const
     const std::string finer =
         told < finest_voxel() ? "" : fmt::format("--voxel {:.3g}, or ", told * diagonal);
     return fmt::format(
-        "{:.2g} % of the vertices are on walls too thin for the voxel of {:.3g}, and rays through "
+        "{:.1f} % of the vertices are on walls too thin for the voxel of {:.3g}, and rays through "
         "the grid may pass them: use {}--method guided, whose rays meet the triangles",
         100.0 * walls.share, double(resolution(field)) * diagonal, finer);
 }
@@ -110,8 +110,8 @@ Baked bake_by_plan(VoxelizedMesh& input, Surroundings& surroundings, const BakeT
                               .finest_voxel = finest,
                               .has_grid = has_grid,
                               .wanted = task.wanted};
-    refuse_late_plan(request, pilot);
-    PlannedBake planned = bake_planned(surfels, surface, make_field, pilot, request, progress);
+    PlannedBake planned = bake_planned(surfels, surface, make_field, pilot, request, progress,
+                                       [&](const Plan& plan) { refuse_late_plan(plan, request, pilot); });
     baked.choice = planned.plan.choice;
     baked.values = std::move(planned.values);
     if (has_grid)

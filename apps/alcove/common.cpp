@@ -37,9 +37,8 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
                         "--time-limit takes seconds, above 0 and up to 1e9, not '{:g}'", seconds));
                 limit_time(seconds);
             },
-            "End with exit code 1 after that many seconds, and leave files as they were; what clearly takes "
-            "longer is "
-            "refused with what fits")
+            "End with exit code 1 after that many seconds, and leave files as they were; a bake or picture "
+            "that clearly takes longer is not begun, and told what fits")
         ->option_text("SECONDS");
     verb.add_flag("--quiet", options.quiet, "Neither progress nor warnings");
     verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);

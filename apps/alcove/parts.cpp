@@ -1,4 +1,5 @@
 #include "baking.h"
+#include "time_estimate.h"
 
 #include "alcove/accuracy/pilot.h"
 #include "alcove/grid/plan.h"
@@ -94,6 +95,7 @@ Baked bake_parts(VoxelizedMesh& input, const Surroundings& surroundings, const B
         Settings of_part = task.settings;
         of_part.radius = input.radius * scale;
         const std::vector<Surfel> surfels = make_surfels(mesh, triangles, frame, task.normals);
+        refuse_late_bake(surfels, occluders, *task.method, of_part, task.wanted);
         ChannelValues values =
             bake_channels(surfels, occluders, *task.method, of_part, task.wanted, [&](double done) {
                 progress((static_cast<double>(finished) + done * static_cast<double>(vertices.size())) /

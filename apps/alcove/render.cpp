@@ -90,7 +90,7 @@ void run(const Options& options) {
         "{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
         std::filesystem::path(options.scene.input).filename().string(), method, radius, staged.voxel);
     const Camera start = camera_of(options, scene, staged, scene.size);
-    refuse_late_pictures(scene.size, frames.size(), [&](ImageSize size) {
+    refuse_late_picture(scene.size, [&](ImageSize size) {
         const Camera camera = camera_of(options, scene, staged, size);
         render(staged.subject, camera, rendering_of(scene, staged, camera, output.passes()));
     });

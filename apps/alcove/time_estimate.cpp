@@ -2,7 +2,6 @@
 
 #include "ending.h"
 
-#include "alcove/errors.h"
 #include "alcove/occlusion/bake.h"
 #include "alcove/parallel.h"
 
@@ -38,22 +37,22 @@ void refuse_if_late(double seconds, const Remedy& remedy) {
     if (!limit || seconds <= clearly_late * limit->left)
         return;
     const std::string instead = remedy(cautious * limit->left / seconds);
-    throw LimitError(
-        fmt::format("this takes about {:.2g} s more, and of --time-limit {:.2g} s are left: {}allow {:g} s",
-                    seconds, limit->left, instead.empty() ? "" : "use " + instead + ", or ",
+    throw OutOfTime(
+        fmt::format("this takes about {:g} s more, and of --time-limit {:.2g} s are left: {}allow {:g} s",
+                    rounded_up(seconds), limit->left, instead.empty() ? "" : "use " + instead + ", or ",
                     rounded_up(limit->seconds - limit->left + clearly_late * seconds)));
 }
 
 void refuse_late_bake(std::span<const Surfel> surfels, const Occluders& occluders, const Method& method,
                       const Settings& settings, ChannelSet wanted) {
     constexpr std::size_t most_batches = 64, least_stride = 8;
-    constexpr double worth_it = 0.03; // of the time that is left
+    constexpr double surely = 2.0; // beyond this side of what is late, and of what is in time
     const std::optional<TimeLimit> limit = time_limit();
     if (!limit)
         return;
     const std::vector<std::uint32_t> order = spatial_order(surfels);
     const std::size_t batches = order.size() / SurfelBatch::capacity;
-    double each = 0.0, spent = 0.0; // thread-seconds of a surfel, of all
+    double seconds = 0.0; // of all
     for (std::size_t count = 2; count <= most_batches && count * least_stride <= batches; count *= 2) {
         std::vector<Surfel> some;
         for (std::size_t k = 0; k < count; ++k) {
@@ -61,14 +60,13 @@ void refuse_late_bake(std::span<const Surfel> surfels, const Occluders& occluder
             for (std::size_t i = 0; i < SurfelBatch::capacity; ++i)
                 some.push_back(surfels[order[batch * SurfelBatch::capacity + i]]);
         }
-        const double seconds =
+        const double part =
             shared_seconds_of([&] { bake_channels(some, occluders, method, settings, wanted); });
-        each = seconds / static_cast<double>(some.size());
-        spent += seconds;
-        if (spent > worth_it * limit->left)
+        seconds = part * static_cast<double>(order.size()) / static_cast<double>(some.size());
+        if (surely * seconds < limit->left || seconds > surely * clearly_late * limit->left)
             break;
     }
-    refuse_if_late(each * static_cast<double>(order.size()), [&](double share) -> std::string {
+    refuse_if_late(seconds, [&](double share) -> std::string {
         const int samples = choice_of(method, settings).samples;
         const int fewer = static_cast<int>(share * samples);
         if (fewer >= 1)
@@ -77,24 +75,19 @@ void refuse_late_bake(std::span<const Surfel> surfels, const Occluders& occluder
     });
 }
 
-void refuse_late_plan(const PlanRequest& request, const Pilot& pilot) {
-    if (!time_limit())
-        return;
-    const auto seconds_for = [&](double error) {
-        PlanRequest other = request;
-        other.error = error;
-        return Planner(other, pilot).next().seconds / static_cast<double>(thread_count());
-    };
-    const double seconds = seconds_for(request.error);
-    refuse_if_late(seconds, [&](double share) -> std::string {
-        for (const double error : {0.005, 0.01, 0.02, 0.03, 0.05, 0.1})
-            if (error > request.error && seconds_for(error) < share * seconds)
+void refuse_late_plan(const Plan& plan, const PlanRequest& request, const Pilot& pilot) {
+    const double threads = static_cast<double>(thread_count());
+    refuse_if_late(plan.seconds / threads, [&](double share) -> std::string {
+        for (PlanRequest other = request; const double error : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1}) {
+            other.error = error;
+            if (error > request.error && Planner(other, pilot).next().seconds < share * plan.seconds)
                 return fmt::format("--error {}", error);
+        }
         return "";
     });
 }
 
-void refuse_late_pictures(ImageSize size, std::size_t count, const std::function<void(ImageSize)>& draw) {
+void refuse_late_picture(ImageSize size, const std::function<void(ImageSize)>& draw) {
     if (!time_limit())
         return;
     const auto pixels = [](const ImageSize& of) { return static_cast<double>(of.width) * of.height; };
@@ -107,11 +100,11 @@ void refuse_late_pictures(ImageSize size, std::size_t count, const std::function
     const double less = shared_seconds_of([&] { draw(smaller); });
     const double more = shared_seconds_of([&] { draw(small); });
     const double a_pixel = (more - less) / std::max(pixels(small) - pixels(smaller), 1.0);
-    refuse_if_late(a_pixel * pixels(size) * static_cast<double>(count), [&](double share) -> std::string {
+    refuse_if_late(a_pixel * pixels(size), [&](double share) -> std::string {
         constexpr double worth_a_look = 0.1;
         const double side = std::sqrt(share);
         if (side < worth_a_look)
-            return "fewer --rays and --pixel-samples, and a smaller --size";
+            return "fewer samples and a smaller --size";
         const ImageSize fits = scaled(side);
         return fmt::format("--size {}x{}", fits.width, fits.height);
     });

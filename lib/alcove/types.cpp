@@ -22,6 +22,8 @@ Frame frame_of(const Box& box) {
     const double diagonal = box.diagonal();
     if (std::isinf(diagonal))
         throw InputError("coordinates lie further apart than numbers reach: scale them down");
+    if (std::fpclassify(diagonal) == FP_SUBNORMAL)
+        throw InputError("coordinates lie nearer together than numbers tell: scale them up");
     frame.center = box.center();
     if (diagonal > 0.0)
         frame.diagonal = diagonal;

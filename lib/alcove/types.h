@@ -50,7 +50,7 @@ struct Frame {
 };
 
 /// The frame of a box; of diagonal 1 where the box is empty or a single point. \throw InputError if the diagonal of the box
-/// is infinite.
+/// is infinite, or subnormal.
 Frame frame_of(const Box& box);
 
 /// A point of the surface and its unit normal; a zero normal marks a point that has none.

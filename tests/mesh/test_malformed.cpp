@@ -67,6 +67,8 @@ std::vector<Damage> damages() {
         {"nothing.stl", stl_title + packed(0), "", "holds 0 points but no faces"},
         {"far_apart.obj", "v -1e308 0 0\nv 1e308 0 0\nv 0 1 0\nf 1 2 3\n", "",
          "further apart than numbers reach"},
+        {"near_together.obj", "v -1e-310 0 0\nv 1e-310 0 0\nv 0 1e-310 0\nf 1 2 3\n", "",
+         "nearer together than numbers tell"},
         {"nothing.obj", "# only a comment\n", "", "holds 0 points but no faces"},
         // PLY headers
         {"magic.ply", "plyx\nformat ascii 1.0\n", "line 1", "begins with a line 'ply'"},

@@ -103,11 +103,10 @@ TEST(Camera, EyeAtTheTargetIsRefused) {
 }
 
 TEST(AutomaticCamera, ContainsTheBoxAndFillsTheImage) {
-    const Box boxes[] = {{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}},
-                         {{0.0, 0.0, 0.0}, {10.0, 0.1, 0.2}},
-                         {{500.0, -3.0, 7.0}, {501.0, 40.0, 8.0}},
-                         {{1e6, 1e6, 1e6}, {1e6 + 1e-3, 1e6 + 2e-3, 1e6 + 1e-3}},
-                         {{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}}};
+    const Box boxes[] = {
+        {{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}},    {{0.0, 0.0, 0.0}, {10.0, 0.1, 0.2}},
+        {{500.0, -3.0, 7.0}, {501.0, 40.0, 8.0}}, {{1e6, 1e6, 1e6}, {1e6 + 1e-3, 1e6 + 2e-3, 1e6 + 1e-3}},
+        {{1e20, 2e20, 1e20}, {3e20, 3e20, 2e20}}, {{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}}};
     for (const Box& box : boxes)
         for (const ImageSize size : {ImageSize{1280, 720}, ImageSize{200, 600}})
             for (const Vec3d up : {Vec3d(0.0, 1.0, 0.0), Vec3d(0.0, 0.0, 1.0), Vec3d(-1.0, 0.2, 0.1)})

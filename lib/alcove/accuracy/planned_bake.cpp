@@ -27,12 +27,14 @@ class Fields {
 
 PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surface,
                          const MakeField& make_field, const Pilot& pilot, const PlanRequest& request,
-                         const Progress& progress) {
+                         const Progress& progress, const std::function<void(const Plan&)>& approve) {
     Planner planner(request, pilot);
     Fields fields(make_field);
     PlannedBake result;
     for (;;) {
         result.plan = planner.next();
+        if (approve)
+            approve(result.plan);
         const MethodChoice& choice = result.plan.choice;
         const float voxel = request.has_grid ? GridOptions{}.largest_voxel : result.plan.largest_voxel;
         const AnyField* field = nullptr;

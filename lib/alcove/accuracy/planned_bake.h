@@ -21,9 +21,9 @@ struct PlannedBake {
 
 /// Bakes by the cheapest plan, and by others where its error turns out too large at the pilot's surfels; exact
 /// rays end it. The wanted channels hold ao; those that exact rays do not give need `request.has_grid`. `surface`
-/// is what the pilot was made with.
+/// is what the pilot was made with. `approve` is told of every plan before it is followed, and may throw.
 PlannedBake bake_planned(std::span<const Surfel> surfels, const RaySurface& surface,
                          const MakeField& make_field, const Pilot& pilot, const PlanRequest& request,
-                         const Progress& progress = {});
+                         const Progress& progress = {}, const std::function<void(const Plan&)>& approve = {});
 
 }

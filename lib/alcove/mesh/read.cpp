@@ -73,6 +73,8 @@ Mesh read_bytes(const FileBytes& file) {
     if (std::isinf(mesh.box().diagonal()))
         file.fail(
             "has vertices that lie further apart than numbers reach; scale it down, or export it again");
+    if (std::fpclassify(mesh.box().diagonal()) == FP_SUBNORMAL)
+        file.fail("has vertices that lie nearer together than numbers tell; scale it up, or export it again");
     warn_of_odd_geometry(mesh);
     return mesh;
 }

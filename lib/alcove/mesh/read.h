@@ -31,7 +31,7 @@ namespace alcove {
 /// \throw InputError naming file, line or byte and mend: unknown format, damaged header, counts larger than
 /// what is
 ///        left of the file, an index out of range, a token that is no number, an early end, no faces at all,
-///        vertices that lie further apart than a double holds.
+///        vertices that lie further apart than a double holds, or nearer together than the least normal one.
 /// \throw IoError if the file cannot be read. \throw LimitError if it does not fit in memory or
 /// holds 2^32
 ///        vertices or corners.

@@ -109,7 +109,8 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
 
     const Vec3d up = glm::normalize(options.up);
     const Vec3d toward_eye = three_quarter_view(up);
-    const Camera orientation(target + toward_eye, target, up, options.fov, size);
+    const Camera orientation(toward_eye, Vec3d(0.0), up, options.fov,
+                             size); // its axes alone: a target may be far away
     const double half_width = std::tan(0.5 * options.fov * std::numbers::pi / 180.0);
     Visibility horizontal((1.0 - 2.0 * margin) * half_width);
     Visibility vertical((1.0 - 2.0 * margin) * half_width * size.height / size.width);

@@ -6,12 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace alcove {
 namespace {
 
-/// Points on the faces, as evenly by area, in the unit space of a frame in the space of the prop.
-std::vector<Surfel> points_on_faces(const Prop& prop, const Frame& own) {
+/// Places on the faces, evenly by area, in the unit space of a frame in the space of the prop.
+std::vector<Surfel> places_on_faces(const Prop& prop, const Frame& own) {
     constexpr std::size_t count = 4096;
     const auto corner = [&](const Triangle& t, int i) {
         return (prop.mesh.positions[t[static_cast<std::size_t>(i)]] - own.center) / own.diagonal;
@@ -59,31 +60,36 @@ double share_without_inside(const std::vector<Surfel>& surfels, const Prop& prop
 
 std::string missing_walls(const Prop& prop, const AnyField& field, const Frame& frame,
                           const GridOptions& options) {
-    constexpr double noticeable = 0.05, percent = 100.0;
-    if (prop.stack.sign == Sign::sheet)
-        return {};
+    constexpr double noticeable = 0.01, percent = 100.0;
+    constexpr double told_by_floats = 1e-5; // voxels that the unit space of a far larger scene tells
     const Frame own = frame_of(prop.mesh.box());
-    const std::vector<Surfel> surfels = points_on_faces(prop, own);
-    const double share = share_without_inside(surfels, prop, own, field, frame);
-    if (share < noticeable)
+    const float voxel = prop.stack.levels.front().voxel;
+    const bool is_told = double(voxel) * own.diagonal * prop.pose.scale > told_by_floats * frame.diagonal;
+    if (prop.stack.sign == Sign::sheet || !is_told)
+        return {};
+    const std::vector<Surfel> places = places_on_faces(prop, own);
+    if (share_without_inside(places, prop, own, field, frame) < noticeable)
         return {};
     std::vector<Vec3> positions;
     positions.reserve(prop.mesh.positions.size());
     for (const Vec3d& p : prop.mesh.positions)
         positions.push_back(own.to_unit(p));
-    const float voxel = prop.stack.levels.front().voxel;
-    const ThinWalls walls = thin_walls(surfels, RaySurface(positions, prop.triangles), voxel, false);
-    if (!walls.noticeable())
+    const RaySurface surface(positions, prop.triangles);
+    const ThinWalls walls = thin_walls(places, surface, voxel, false);
+    // Twice as far from an edge the far side is twice as far: of edges, half the share is nearer than half of that.
+    const double share = std::abs(2.0 * thin_walls(places, surface, 0.5f * voxel, false).share - walls.share);
+    if (share < noticeable)
         return {};
-    const double told = percent * double(walls.voxel);
+    constexpr double clearly = 0.98; // finer, for the voxel is told by three digits
+    const double told = clearly * double(walls.voxel);
     const double finest =
         finest_voxel(surface_size(prop.mesh, prop.triangles), prop.triangles.size(), options);
     return fmt::format(
-        "walls, {:.0f} % of the surface, are too thin for the voxel of {:.3g}%, and have holes: {}",
-        percent * share, percent * double(voxel),
-        double(walls.voxel) >= finest
-            ? fmt::format("use a voxel of {:.2g}%", told)
-            : fmt::format("a voxel of {:.2g}%, which tells them, takes more memory than there is", told));
+        "walls, {:.0f} % of the surface, are too thin for the voxel of {:.3g}%, and have holes: {} "
+        "voxel of {:.3g}%{}",
+        percent * share, percent * double(voxel), told < finest ? "they ask for a" : "use a", percent * told,
+        told < finest ? fmt::format(", which takes more than {:.2g} GB", options.memory_limit / 1e9)
+                      : std::string());
 }
 
 }

@@ -165,9 +165,12 @@ Staged stage(const Scene& scene, PassSet passes, const Progress& progress) {
         .subject = {std::move(field), frame, box, std::move(parts), std::move(grounds), std::move(mesh)},
         .points = std::move(points),
         .radius = radius};
+    const bool several = props.size() > 1 || std::any_of(props.begin(), props.end(), [](const Prop& prop) {
+                             return !prop.parts.empty();
+                         });
     for_each_prop(props, [&](const Prop& prop) {
         for (const std::string& warning : prop.warnings)
-            staged.warnings.push_back(props.size() > 1 ? prop.object->name + ": " + warning : warning);
+            staged.warnings.push_back(several ? prop.object->name + ": " + warning : warning);
         if (prop.stack.levels.empty())
             return;
         staged.levels = std::max(staged.levels, prop.stack.levels.size());
