@@ -30,7 +30,8 @@ double rounded_up(double seconds) {
     return std::ceil(seconds / unit) * unit;
 }
 
-}
+/// What to ask for instead, as "--rays 20", given how much of the work fits, in (0, 1); empty where nothing helps.
+using Remedy = std::function<std::string(double share)>;
 
 void refuse_if_late(double seconds, const Remedy& remedy) {
     const std::optional<TimeLimit> limit = time_limit();
@@ -41,6 +42,8 @@ void refuse_if_late(double seconds, const Remedy& remedy) {
         fmt::format("this takes about {:g} s more, and of --time-limit {:.2g} s are left: {}allow {:g} s",
                     rounded_up(seconds), limit->left, instead.empty() ? "" : "use " + instead + ", or ",
                     rounded_up(limit->seconds - limit->left + clearly_late * seconds)));
+}
+
 }
 
 void refuse_late_bake(std::span<const Surfel> surfels, const Occluders& occluders, const Method& method,

@@ -16,13 +16,8 @@ struct OutOfTime : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What to ask for instead, as "--rays 20", given how much of the work fits, in (0, 1); empty where nothing helps.
-using Remedy = std::function<std::string(double share)>;
-
-/// \throw OutOfTime where work of so many seconds, wall clock, takes over twice those that are left: estimates err.
-void refuse_if_late(double seconds, const Remedy& remedy);
-
-/// The rest is for a time limit alone: without one none of it works. \throw OutOfTime
+/// Each does nothing without a time limit, and throws OutOfTime, naming what fits, where the work would take over twice the
+/// seconds that are left: estimates err.
 
 /// Bakes 128 surfels from all over on what the method is to see, and twice as many again while these leave it open whether
 /// there is time enough, a quarter of all at most; of fewer than a thousand none.

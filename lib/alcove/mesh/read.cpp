@@ -70,10 +70,11 @@ Mesh read_bytes(const FileBytes& file) {
         throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
     if (mesh.face_count() == 0)
         file.fail(points_without_faces(mesh.vertex_count()));
-    if (std::isinf(mesh.box().diagonal()))
+    const double diagonal = mesh.box().diagonal();
+    if (std::isinf(diagonal))
         file.fail(
             "has vertices that lie further apart than numbers reach; scale it down, or export it again");
-    if (std::fpclassify(mesh.box().diagonal()) == FP_SUBNORMAL)
+    if (std::fpclassify(diagonal) == FP_SUBNORMAL)
         file.fail("has vertices that lie nearer together than numbers tell; scale it up, or export it again");
     warn_of_odd_geometry(mesh);
     return mesh;
