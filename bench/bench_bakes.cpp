@@ -4,10 +4,10 @@
 /// of the same voxel and of one twice as wide.
 ///
 ///     build/bench/bench_bakes --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
-#include "alcove/accuracy/method_choice.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/catalog.h"
+#include "alcove/occlusion/methods/reference/classic.h"
 #include "openvdb_peer.h"
 #include "plain_embree.h"
 #include "run_on_one_thread.h"
@@ -27,9 +27,9 @@ Occluders occluders_of(const Scan& scan, const Method& method) {
         return LevelStack(voxelize(scan.mesh, scan.triangles, {.grid = {.radius = radius}}));
     };
     const auto surface = [&] { return RaySurface(unit_positions(scan), scan.triangles); };
-    if (!method.asks_rays)
+    if (!method.needs_mesh)
         return Occluders(field());
-    if (!method.asks_field)
+    if (!method.needs_grid)
         return Occluders(surface());
     return Occluders(field(), surface());
 }

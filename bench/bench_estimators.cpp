@@ -4,10 +4,10 @@
 /// other, in a single level of the same voxel. `map` and `rays` are counted a vertex.
 ///
 ///     build/bench/bench_estimators --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
-#include "alcove/accuracy/counting_field.h"
-#include "alcove/accuracy/method_choice.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/occlusion/methods/classic.h"
+#include "alcove/measure/detail/counting_field.h"
+#include "alcove/occlusion/catalog.h"
+#include "alcove/occlusion/methods/reference/classic.h"
 #include "openvdb_peer.h"
 #include "plain_embree.h"
 #include "run_on_one_thread.h"

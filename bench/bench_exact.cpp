@@ -3,7 +3,7 @@
 /// building of the hierarchy.
 ///
 ///     build/bench/bench_exact --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
-#include "alcove/occlusion/exact.h"
+#include "alcove/occlusion/methods/exact.h"
 #include "plain_embree.h"
 #include "run_on_one_thread.h"
 #include "scan.h"

@@ -4,9 +4,9 @@
 ///
 ///     build/bench/bench_map --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/field/level_stack.h"
-#include "alcove/grid/vdb.h"
+#include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/evaluate.h"
 #include "dense_array.h"
 #include "probe_batches.h"
 #include "scan.h"

@@ -3,8 +3,8 @@
 /// 104,002 and 416,002. Compare CPU times, and with two threads real times.
 ///
 ///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
+#include "alcove/base/parallel.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/parallel.h"
 #include "openvdb_peer.h"
 
 namespace {

@@ -1,7 +1,7 @@
 /// The floor of a map(): a scalar trilinear fetch from a dense array.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <cstddef>
 #include <vector>

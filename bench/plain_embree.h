@@ -1,7 +1,7 @@
 /// Occlusion as one writes it with Embree alone.
 #pragma once
 
-#include "alcove/occlusion/exact.h"
+#include "alcove/occlusion/methods/exact.h"
 
 #include <embree3/rtcore.h>
 

@@ -1,7 +1,7 @@
 /// What BENCHMARK_MAIN() does, on one thread.
 #pragma once
 
-#include "alcove/parallel.h"
+#include "alcove/base/parallel.h"
 
 #include <benchmark/benchmark.h>
 

@@ -3,7 +3,7 @@
 
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/occlusion/directions.h"
+#include "alcove/occlusion/detail/directions.h"
 
 #include <algorithm>
 #include <map>

@@ -5,8 +5,8 @@
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/occlusion/bake.h"
-#include "alcove/occlusion/exact.h"
+#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/methods/exact.h"
 
 #include <optional>
 

@@ -7,9 +7,9 @@
 /// runs on: what matters to plans is how they compare.
 #include "meshes.h"
 
-#include "alcove/accuracy/measure.h"
-#include "alcove/accuracy/pilot.h"
-#include "alcove/grid/plan.h"
+#include "alcove/bake/detail/pilot.h"
+#include "alcove/grid/detail/plan.h"
+#include "alcove/measure/measure.h"
 #include "alcove/mesh/read.h"
 #include "subdivided.h"
 
@@ -92,7 +92,7 @@ class Survey {
                     build_grid(mesh, radii[r], chosen_voxel(radii[r], largest_voxels[v]));
                 const double voxel = grid.field.resolution();
                 const double voxelized =
-                    triangles_voxelized(area, mesh.triangles.size(), voxel, {.thin = true});
+                    triangles_voxelized(area, mesh.triangles.size(), voxel, {.cluster = true});
                 costs_.grid.push_back(
                     {voxelized, triangles - voxelized, area / (voxel * voxel), grid.seconds});
                 for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -151,7 +151,7 @@ inline constexpr double rays_slower_per_doubling = {:.3f};
 inline constexpr double tree_seconds_per_triangle = {:.3g};
 inline constexpr double seconds_per_grid = {:.3g};
 inline constexpr double grid_seconds_per_triangle = {:.3g}; ///< that is voxelized
-inline constexpr double thinning_seconds_per_triangle = {:.3g}; ///< that is left out
+inline constexpr double clustering_seconds_per_triangle = {:.3g}; ///< that is left out
 inline constexpr double grid_seconds_per_voxel = {:.3g}; ///< a cell of the finest level that the surface is in: area / voxel²
 inline constexpr double grid_seconds_of_both = {:.3g}; ///< by the geometric mean of triangles that are voxelized and such cells
 
@@ -227,7 +227,7 @@ void run() {
             survey.add(MeasuredMesh("finest", subdivided(finer)), false);
         }
     }
-    const std::string path = std::string(ALCOVE_TREE) + "/lib/alcove/accuracy/plan_table.h";
+    const std::string path = std::string(ALCOVE_TREE) + "/lib/alcove/bake/detail/plan_table.h";
     std::ofstream table(path);
     table << survey.table();
     if (!table.flush())

@@ -79,7 +79,7 @@ std::string table_of(const Fit& fit) {
     }
     text += "#pragma once\n\n"
             "#include \"alcove/occlusion/methods/calibrated_inputs.h\"\n"
-            "#include \"alcove/occlusion/network.h\"\n\n"
+            "#include \"alcove/occlusion/methods/network.h\"\n\n"
             "// clang-format off\n"
             "namespace alcove::calibrated_table {\n\n";
     text += network_of(fit.ten, "ten_probes") + "\n" + network_of(fit.twenty_four, "twenty_four_probes");

@@ -1,7 +1,7 @@
 /// What must hold whatever the bytes are. A failure ends the program as a crash does, so that any driver sees it.
 #pragma once
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,7 +4,7 @@
 //
 // An input that fails, takes more than two seconds or 512 MB is kept in NAME.failed in the working folder; a folder that
 // is not there holds no files.
-#include "alcove/resident_memory.h"
+#include "alcove/base/detail/memory.h"
 #include "mutations.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // The readers of meshes, one a target: ALCOVE_FUZZ_FILE is the name that the bytes come under.
-#include "alcove/mesh/formats.h"
+#include "alcove/mesh/formats/formats.h"
 #include "checks.h"
 #include "mesh_checks.h"
 

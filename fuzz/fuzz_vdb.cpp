@@ -1,5 +1,5 @@
 // The reader of level sets.
-#include "alcove/grid/grid_io.h"
+#include "alcove/vdb/vdb_file.h"
 #include "checks.h"
 #include "grid_checks.h"
 #include "memory_file.h"

@@ -24,8 +24,8 @@ class Source {
     double coordinate() {
         using Limits = std::numeric_limits<double>;
         constexpr double infinity = Limits::infinity(), no_number = Limits::quiet_NaN();
-        constexpr std::array odd{0.0,   -0.0,   1e-320,   1e-160,    1e-30,     1e-7,    1e7,  1e30,
-                                 1e160, -1e160, infinity, -infinity, no_number, 1.7e308, 1e39, -1e308};
+        constexpr std::array outliers{0.0,   -0.0,   1e-320,   1e-160,    1e-30,     1e-7,    1e7,  1e30,
+                                      1e160, -1e160, infinity, -infinity, no_number, 1.7e308, 1e39, -1e308};
         const std::uint8_t kind = byte();
         if (kind < 192)
             return kind % 16 - 8;
@@ -33,7 +33,7 @@ class Source {
             return take<float>();
         if (kind < 240)
             return take<double>();
-        return odd[kind - 240];
+        return outliers[kind - 240];
     }
 
   private:
@@ -54,7 +54,7 @@ VoxelizeOptions options_of(Source& source) {
     VoxelizeOptions options;
     options.grid = {.radius = choice & 1 ? 0.5f : 0.1f,
                     .largest_voxel = 1.0f / 32.0f,
-                    .thin = (choice & 2) != 0,
+                    .cluster = (choice & 2) != 0,
                     .memory_limit = 64.0 * (1 << 20)};
     options.sign = static_cast<SignChoice>((choice >> 2) % 3);
     return options;

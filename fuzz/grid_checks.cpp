@@ -1,6 +1,6 @@
 #include "grid_checks.h"
 
-#include "alcove/grid/vdb.h"
+#include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/mesh/mesh.h"
 #include "checks.h"
 

@@ -103,7 +103,7 @@ def main():
     write("voxelize/tetrahedron", b"\0" + tetrahedron + faces)
     write("voxelize/thinned_sheet", b"\x0b" + tetrahedron + faces[:6])
     write("voxelize/degenerate", b"\1" + tetrahedron + bytes([0, 0, 1, 1, 2, 2, 3, 3, 3, 0, 1, 2]))
-    write("voxelize/odd", b"\5" + bytes([3 + 12 - 1]) + bytes(range(240, 256)) + bytes(range(12)) +
+    write("voxelize/outliers", b"\5" + bytes([3 + 12 - 1]) + bytes(range(240, 256)) + bytes(range(12)) +
           bytes([0, 1, 2, 3, 4, 5, 6, 7, 8]))
 
 

@@ -1,10 +1,10 @@
 #include "mesh_checks.h"
 
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/obj_document.h"
-#include "alcove/mesh/ply_document.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/messages.h"
 #include "checks.h"
 
 #include <algorithm>

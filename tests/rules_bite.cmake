@@ -9,14 +9,14 @@ function(make_sound_tree)
     file(REMOVE_RECURSE ${tree})
     file(WRITE ${tree}/lib/alcove/internal_headers.cmake "set(alcove_internal_headers grid/vdb.h)\n")
     file(WRITE ${tree}/lib/alcove/alcove.h
-         "#include \"alcove/types.h\"\n#include \"alcove/field/bricks.h\"\n#include \"alcove/field/field.h\"\n")
-    file(WRITE ${tree}/lib/alcove/types.h "#include <glm/vec3.hpp>\n#include <vector>\n")
-    file(WRITE ${tree}/lib/alcove/grid/vdb.h "#include <openvdb/openvdb.h>\n")
-    file(WRITE ${tree}/lib/alcove/grid/band.cpp "#include \"alcove/grid/vdb.h\"\n")
-    file(WRITE ${tree}/lib/alcove/field/field.h "#include \"alcove/types.h\"\n")
-    file(WRITE ${tree}/lib/alcove/field/bricks.h "#include \"alcove/field/field.h\"\n")
+         "#include \"alcove/base/types.h\"\n#include \"alcove/field/detail/bricks.h\"\n#include \"alcove/field/field.h\"\n")
+    file(WRITE ${tree}/lib/alcove/base/types.h "#include <glm/vec3.hpp>\n#include <vector>\n")
+    file(WRITE ${tree}/lib/alcove/grid/detail/vdb_grid.h "#include <openvdb/openvdb.h>\n")
+    file(WRITE ${tree}/lib/alcove/grid/band.cpp "#include \"alcove/grid/detail/vdb_grid.h\"\n")
+    file(WRITE ${tree}/lib/alcove/field/field.h "#include \"alcove/base/types.h\"\n")
+    file(WRITE ${tree}/lib/alcove/field/detail/bricks.h "#include \"alcove/field/field.h\"\n")
     file(WRITE ${tree}/lib/alcove/field/bricks.cpp
-         "#include \"alcove/field/bricks.h\"\n#include \"alcove/grid/vdb.h\"\n")
+         "#include \"alcove/field/detail/bricks.h\"\n#include \"alcove/grid/detail/vdb_grid.h\"\n")
     file(WRITE ${tree}/apps/alcove/main.cpp "#include \"common.h\"\n#include \"alcove/alcove.h\"\n")
 endfunction()
 
@@ -45,7 +45,7 @@ check(sizes "")
 
 refused(layering lib/alcove/grid/band.cpp "\n#include <vector>\n  # include \"alcove/field/field.h\"\n"
         "lib/alcove/grid/band.cpp:3: \"alcove/field/field.h\" is a back-edge")
-refused(layering lib/alcove/types.h "#include \"alcove/mesh/mesh.h\"\n" "lib/alcove/types.h:1")
+refused(layering lib/alcove/base/types.h "#include \"alcove/mesh/mesh.h\"\n" "lib/alcove/base/types.h:1")
 refused(layering lib/alcove/field/trace.cpp "#include \"alcove/grid/grid_stack.h\"\n"
         "lib/alcove/field/trace.cpp:1: \"alcove/grid/grid_stack.h\" is a back-edge")
 refused(layering lib/alcove/occlusion/bake.cpp "#include \"alcove/render/image.h\"\n" "is a back-edge")
@@ -54,10 +54,10 @@ refused(layering lib/alcove/mesh/read.cpp "#include \"../grid/plan.h\"\n" "is no
 refused(layering lib/alcove/shading/sun.cpp "#include <vector>\n" "is in a folder without a rule")
 refused(layering lib/alcove/field/field.h "#include <openvdb/openvdb.h>\n" "lib/alcove/field/field.h:1")
 refused(layering lib/alcove/field/field.h "#include <fmt/format.h>\n" "is third-party in a public header")
-refused(layering lib/alcove/field/bricks.h "#include \"alcove/grid/vdb.h\"\n" "is internal, and this header is public")
+refused(layering lib/alcove/field/detail/bricks.h "#include \"alcove/grid/detail/vdb_grid.h\"\n" "is internal, and this header is public")
 refused(layering lib/alcove/occlusion/bake.cpp "#include <embree3/rtcore.h>\n" "is embree")
 refused(layering lib/alcove/grid/grid_io.cpp "#include <OpenEXR/ImfHeader.h>\n" "is openexr")
-refused(layering apps/alcove/bake.cpp "#include \"alcove/grid/vdb.h\"\n" "apps/alcove/bake.cpp:1: \"alcove/grid/vdb.h\" brings openvdb")
+refused(layering apps/alcove/bake.cpp "#include \"alcove/grid/detail/vdb_grid.h\"\n" "apps/alcove/bake.cpp:1: \"alcove/grid/detail/vdb_grid.h\" brings openvdb")
 refused(layering apps/alcove/bake.cpp "#include <tbb/parallel_for.h>\n" "is tbb")
 refused(layering lib/alcove/field/combine.h "#include <tuple>\n" "leaves out field/combine.h")
 

@@ -1,13 +1,12 @@
 #include "bake_input.h"
 #include "baking.h"
 
-#include "alcove/errors.h"
-#include "alcove/grid/grid_io.h"
-#include "alcove/mesh/colors.h"
-#include "alcove/mesh/source.h"
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/mesh/detail/source.h"
 #include "alcove/mesh/write.h"
-#include "alcove/messages.h"
-#include "alcove/resident_memory.h"
+#include "alcove/vdb/vdb_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -202,7 +201,7 @@ void print_result(const BakeOptions& options, ChannelSet wanted, const Voxelized
                     {"voxel", or_null(has_grid, baked.grid.voxel)},
                     {"levels", baked.grid.levels},
                     {"sign", or_null(has_grid, name_of(baked.grid.sign))},
-                    {"thinned", or_null(has_grid, baked.grid.thinned)},
+                    {"clustered", or_null(has_grid, baked.grid.clustered)},
                     {"grid_bytes", grid_bytes},
                     {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
                     {"seconds", seconds},
@@ -224,7 +223,7 @@ void run(const BakeOptions& options) {
     grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
         return channel.inside && task.wanted.has(channel.channel);
     });
-    grid_request.thin = options.write_grid.empty(); // one that is kept is exact
+    grid_request.cluster = options.write_grid.empty(); // one that is kept is exact
     const bool needs_field = task.needs().field;
     VoxelizedMesh input = read_bake_input(
         options.source, grid_request, needs_field || !options.write_grid.empty(), options.common, seconds);

@@ -2,12 +2,12 @@
 
 #include "length.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/grid/grid_io.h"
-#include "alcove/grid/mesh_grid.h"
+#include "alcove/grid/zero_surface.h"
 #include "alcove/mesh/read.h"
-#include "alcove/messages.h"
+#include "alcove/vdb/vdb_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

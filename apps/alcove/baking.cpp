@@ -2,9 +2,9 @@
 
 #include "time_estimate.h"
 
-#include "alcove/accuracy/planned_bake.h"
-#include "alcove/grid/plan.h"
-#include "alcove/occlusion/thin_walls.h"
+#include "alcove/bake/detail/planned_bake.h"
+#include "alcove/grid/detail/plan.h"
+#include "alcove/occlusion/detail/thin_walls.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::string thin_wall_warning(double rmse, const Method& method, std::span<const
                               const Occluders& occluders, double diagonal,
                               const std::function<double()>& finest_voxel) {
     constexpr double small_rmse = 0.03;
-    if (rmse <= small_rmse || method.asks_rays || !method.has_parameter("rays"))
+    if (rmse <= small_rmse || method.needs_mesh || !method.has_parameter("rays"))
         return {};
     const AnyField& field = occluders.field();
     const ThinWalls walls = thin_walls(surfels, occluders.rays(), resolution(field), two_sided(field));

@@ -4,8 +4,8 @@
 #include "planning.h"
 #include "surroundings.h"
 
-#include "alcove/accuracy/method_choice.h"
 #include "alcove/mesh/normals.h"
+#include "alcove/occlusion/catalog.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 #include "command_line.h"
 
-#include "alcove/edit_distance.h"
+#include "alcove/base/detail/edit_distance.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 
 #include "progress.h"
 
-#include "alcove/atomic_file.h"
+#include "alcove/base/detail/atomic_file.h"
 
 #include <sys/time.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 #include "facts.h"
 
-#include "alcove/messages.h"
+#include "alcove/base/detail/messages.h"
 
 #include <fmt/format.h>
 

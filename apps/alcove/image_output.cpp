@@ -2,7 +2,7 @@
 
 #include "common.h"
 
-#include "alcove/atomic_file.h"
+#include "alcove/base/detail/atomic_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,14 +1,14 @@
 #include "common.h"
 #include "facts.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/grid/grid_io.h"
 #include "alcove/mesh/read.h"
-#include "alcove/messages.h"
-#include "alcove/parallel.h"
 #include "alcove/render/image.h"
-#include "alcove/render/subject.h"
+#include "alcove/render/renderable.h"
+#include "alcove/vdb/vdb_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "facts.h"
 
+#include "alcove/base/detail/messages.h"
 #include "alcove/mesh/diagnose.h"
-#include "alcove/mesh/obj_document.h"
-#include "alcove/mesh/ply_document.h"
-#include "alcove/messages.h"
+#include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 
 #include "common.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 namespace alcove::cli {
 

@@ -1,7 +1,7 @@
 /// Lengths on the command line.
 #pragma once
 
-#include "alcove/length.h"
+#include "alcove/base/length.h"
 
 #include <string>
 

@@ -2,8 +2,8 @@
 #include "common.h"
 #include "ending.h"
 
-#include "alcove/errors.h"
-#include "alcove/messages.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

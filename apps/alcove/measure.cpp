@@ -3,12 +3,12 @@
 #include "measured_results.h"
 #include "method_options.h"
 
-#include "alcove/accuracy/report.h"
-#include "alcove/atomic_file.h"
-#include "alcove/errors.h"
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
+#include "alcove/measure/report.h"
 #include "alcove/mesh/read.h"
-#include "alcove/messages.h"
-#include "alcove/parallel.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -127,7 +127,7 @@ std::vector<Job> plan_jobs(const std::vector<std::string>& meshes, const std::ve
         for (const WrittenLength& radius : radii)
             for (const WrittenLength* voxel : grids)
                 for (const MethodChoice& choice : choices) {
-                    if (choice.method->asks_field != (voxel != nullptr))
+                    if (choice.method->needs_grid != (voxel != nullptr))
                         continue;
                     Job job{&mesh, &radius, voxel, choice, asked_of(mesh, radius, voxel, choice)};
                     if (std::none_of(jobs.begin(), jobs.end(),

@@ -1,7 +1,7 @@
 #include "measured_results.h"
 
-#include "alcove/atomic_file.h"
-#include "alcove/errors.h"
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/errors.h"
 
 #include <algorithm>
 #include <cmath>

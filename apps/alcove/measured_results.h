@@ -1,7 +1,7 @@
 /// The measurements in a JSON file, so that a run that was cut off goes on where it was.
 #pragma once
 
-#include "alcove/accuracy/measure.h"
+#include "alcove/measure/measure.h"
 
 #include <nlohmann/json.hpp>
 

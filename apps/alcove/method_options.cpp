@@ -1,6 +1,6 @@
 #include "method_options.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ Settings parse_settings(const MethodRequest& request, const MethodInfo& method) 
 Needs needs_of(const Method& method, ChannelSet wanted) {
     Needs needs;
     for (const Method* needed : methods_for(method, wanted))
-        needs = {needs.field || needed->asks_field, needs.rays || needed->asks_rays};
+        needs = {needs.field || needed->needs_grid, needs.rays || needed->needs_mesh};
     return needs;
 }
 

@@ -1,9 +1,9 @@
 #include "baking.h"
 #include "time_estimate.h"
 
-#include "alcove/accuracy/pilot.h"
-#include "alcove/grid/plan.h"
-#include "alcove/mesh/parts.h"
+#include "alcove/bake/detail/pilot.h"
+#include "alcove/grid/detail/plan.h"
+#include "alcove/mesh/detail/parts.h"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 #include "scene_options.h"
 #include "time_estimate.h"
 
-#include "alcove/render/turntable.h"
-#include "alcove/resident_memory.h"
-#include "alcove/scene/staging.h"
+#include "alcove/base/detail/memory.h"
+#include "alcove/render/detail/turntable.h"
+#include "alcove/scene/build.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -45,16 +45,16 @@ std::vector<Frame> frames_to_draw(const Options& options, const ImageOutput& out
 }
 
 /// The axis of a turntable: upward through what is looked at.
-Axis axis_of(const Scene& scene, const Staged& staged) {
-    return {
-        scene.camera.look_at.value_or(staged.subject.box.empty() ? Vec3d(0.0) : staged.subject.box.center()),
-        scene.camera.up};
+Axis axis_of(const Scene& scene, const BuiltScene& built) {
+    return {scene.camera.look_at.value_or(built.renderable.box.empty() ? Vec3d(0.0)
+                                                                       : built.renderable.box.center()),
+            scene.camera.up};
 }
 
-Camera camera_of(const Options& options, const Scene& scene, const Staged& staged, ImageSize size) {
+Camera camera_of(const Options& options, const Scene& scene, const BuiltScene& built, ImageSize size) {
     if (!options.frames || scene.camera.eye)
-        return make_camera(scene.camera, staged.points, size);
-    return make_camera(scene.camera, swept(staged.points, axis_of(scene, staged)), size);
+        return make_camera(scene.camera, built.points, size);
+    return make_camera(scene.camera, swept(built.points, axis_of(scene, built)), size);
 }
 
 nlohmann::ordered_json triple(const Vec3d& v) {
@@ -79,20 +79,20 @@ void run(const Options& options) {
         return;
     }
 
-    const Staged staged = [&] {
+    const BuiltScene built = [&] {
         ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");
-        return stage(scene, output.passes(), std::ref(voxelizing));
+        return build_scene(scene, output.passes(), std::ref(voxelizing));
     }();
     seconds["scene"] = watch.lap();
 
-    const double radius = staged.radius * staged.subject.frame.diagonal;
+    const double radius = built.radius * built.renderable.frame.diagonal;
     const std::string comments = fmt::format(
         "{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
-        std::filesystem::path(options.scene.input).filename().string(), method, radius, staged.voxel);
-    const Camera start = camera_of(options, scene, staged, scene.size);
+        std::filesystem::path(options.scene.input).filename().string(), method, radius, built.voxel);
+    const Camera start = camera_of(options, scene, built, scene.size);
     refuse_late_picture(scene.size, [&](ImageSize size) {
-        const Camera camera = camera_of(options, scene, staged, size);
-        render(staged.subject, camera, rendering_of(scene, staged, camera, output.passes()));
+        const Camera camera = camera_of(options, scene, built, size);
+        render(built.renderable, camera, rendering_of(scene, built, camera, output.passes()));
     });
     double rendering = 0.0, writing = 0.0;
     std::size_t covered = 0;
@@ -100,12 +100,12 @@ void run(const Options& options) {
         ProgressMeter meter(options.common.progress_mode(), "rendering");
         for (std::size_t i = 0; i < frames.size(); ++i) {
             const Camera camera =
-                options.frames ? turned(start, axis_of(scene, staged), frames[i].degrees) : start;
+                options.frames ? turned(start, axis_of(scene, built), frames[i].degrees) : start;
             const auto done = [&](double part) {
                 meter((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
             };
             const Image image =
-                render(staged.subject, camera, rendering_of(scene, staged, camera, output.passes()), done);
+                render(built.renderable, camera, rendering_of(scene, built, camera, output.passes()), done);
             rendering += watch.lap();
             output.write(image, frames[i].file, camera, comments);
             writing += watch.lap();
@@ -116,12 +116,13 @@ void run(const Options& options) {
     seconds["render"] = rendering;
     seconds["write"] = writing;
 
-    std::vector<std::string> warnings = staged.warnings;
+    std::vector<std::string> warnings = built.warnings;
     if (covered == 0)
-        warnings.push_back("the picture is empty: the camera does not see the subject; leave out its eye and "
-                           "what it looks at");
-    const Subject& subject = staged.subject;
-    if (!two_sided(subject.field) && subject.field.map(subject.frame.to_unit(start.eye())) < 0.0f)
+        warnings.push_back(
+            "the picture is empty: the camera does not see the renderable; leave out its eye and "
+            "what it looks at");
+    const Renderable& renderable = built.renderable;
+    if (!two_sided(renderable.field) && renderable.field.map(renderable.frame.to_unit(start.eye())) < 0.0f)
         warnings.push_back("the camera is inside a solid, where all is black: move it, or say sign = "
                            "\"unsigned\" of a room");
     print_warnings(warnings, options.common);
@@ -131,7 +132,7 @@ void run(const Options& options) {
                                          output.frame_file(*options.frames, *options.frames), skipped)
                            : options.image.file;
         fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}, voxel {:.4g}\n", drawn,
-                   scene.size.width, scene.size.height, method, radius, staged.voxel);
+                   scene.size.width, scene.size.height, method, radius, built.voxel);
     }
     if (options.common.json) {
         nlohmann::ordered_json result{{"input", options.scene.input},
@@ -141,8 +142,8 @@ void run(const Options& options) {
                                       {"covered_pixels", covered},
                                       {"method", method},
                                       {"radius", radius},
-                                      {"voxel", staged.voxel},
-                                      {"levels", staged.levels},
+                                      {"voxel", built.voxel},
+                                      {"levels", built.levels},
                                       {"camera",
                                        {{"eye", triple(start.eye())},
                                         {"forward", triple(start.forward())},

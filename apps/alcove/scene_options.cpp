@@ -3,7 +3,7 @@
 #include "length.h"
 #include "vector.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 #include "alcove/render/image.h"
 #include "alcove/scene/scene_file.h"
 

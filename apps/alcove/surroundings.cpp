@@ -2,11 +2,13 @@
 
 #include "vector.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/mesh/clip.h"
+#include "alcove/grid/detail/plan.h"
+#include "alcove/mesh/detail/clip.h"
 #include "alcove/mesh/read.h"
+#include "alcove/occlusion/detail/directions.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -38,7 +40,7 @@ GridStack voxelize_occluder(const Mesh& mesh, std::span<const Triangle> triangle
     VoxelizeOptions options;
     options.grid.radius = static_cast<float>(input.radius * scale);
     options.grid.memory_limit = memory;
-    options.grid.thin = true;
+    options.grid.cluster = true;
     const float voxel =
         input.stack.levels.empty() ? input.options.grid.voxel : input.stack.levels.front().voxel;
     if (voxel > 0.0f)
@@ -115,7 +117,7 @@ bool Surroundings::fit() const {
     return std::all_of(occluders_.begin(), occluders_.end(), [&](const Occluder& occluder) {
         return std::isfinite(finest_voxel(surface_size(occluder.mesh, occluder.triangles),
                                           occluder.triangles.size(),
-                                          {.thin = true, .memory_limit = memory_each()}));
+                                          {.cluster = true, .memory_limit = memory_each()}));
     });
 }
 

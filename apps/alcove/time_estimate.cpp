@@ -2,8 +2,8 @@
 
 #include "ending.h"
 
-#include "alcove/occlusion/bake.h"
-#include "alcove/parallel.h"
+#include "alcove/base/parallel.h"
+#include "alcove/occlusion/evaluate.h"
 
 #include <fmt/format.h>
 

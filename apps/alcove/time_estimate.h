@@ -1,8 +1,8 @@
 /// How long work will take, told by a small part of it: where the time limit clearly does not suffice, it is not begun.
 #pragma once
 
-#include "alcove/accuracy/method_choice.h"
-#include "alcove/accuracy/planner.h"
+#include "alcove/bake/detail/planner.h"
+#include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
 
 #include <functional>

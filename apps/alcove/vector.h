@@ -1,7 +1,7 @@
 /// Points and directions as people write them: `1,2.5,-3`.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <string>
 

@@ -1,10 +1,10 @@
 #include "common.h"
 #include "voxelized.h"
 
-#include "alcove/grid/grid_io.h"
-#include "alcove/messages.h"
-#include "alcove/parallel.h"
-#include "alcove/resident_memory.h"
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/parallel.h"
+#include "alcove/vdb/vdb_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

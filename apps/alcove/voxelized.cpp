@@ -2,8 +2,8 @@
 
 #include "length.h"
 
-#include "alcove/atomic_file.h"
-#include "alcove/errors.h"
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/errors.h"
 #include "alcove/mesh/read.h"
 
 #include <CLI/CLI.hpp>
@@ -56,7 +56,7 @@ void GridFacts::include(const GridFacts& other) {
     voxel = std::max(voxel, other.voxel);
     levels = std::max(levels, other.levels);
     bytes = std::max(bytes, other.bytes);
-    thinned = thinned || other.thinned;
+    clustered = clustered || other.clustered;
     if (other.sign == Sign::sheet)
         sign = Sign::sheet;
 }
@@ -65,14 +65,14 @@ std::string GridFacts::text() const {
     if (levels == 0)
         return "on the mesh itself";
     return fmt::format("as a {} of {} level{} from voxel {:.4g}{}", name_of(sign), levels,
-                       levels == 1 ? "" : "s", voxel, thinned ? ", thinned to half of it" : "");
+                       levels == 1 ? "" : "s", voxel, clustered ? ", clustered to half of it" : "");
 }
 
 GridFacts facts_of(const GridStack& stack) {
     if (stack.levels.empty())
         return {};
     return {stack.levels.front().voxel * stack.frame.diagonal, stack.levels.size(), stack.bytes(), stack.sign,
-            stack.thinned};
+            stack.clustered};
 }
 
 VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& request,
@@ -88,7 +88,7 @@ VoxelizedMesh read_to_voxelize(const std::string& input, const GridRequest& requ
     GridOptions& grid = result.options.grid;
     result.options.sign = parse_sign(request.sign);
     grid.outer_band = request.band;
-    grid.thin = request.thin;
+    grid.cluster = request.cluster;
     if (request.inside)
         grid.inner_band = request.band;
 

@@ -3,8 +3,8 @@
 
 #include "common.h"
 
+#include "alcove/base/length.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/length.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <optional>
@@ -15,8 +15,8 @@ namespace alcove::cli {
 struct GridRequest {
     std::string radius = "10%", voxel = "auto", sign = "auto";
     float band = GridOptions{}.outer_band;
-    bool inside = false; ///< the band is as wide behind the surface
-    bool thin = false;   ///< as GridOptions has it
+    bool inside = false;  ///< the band is as wide behind the surface
+    bool cluster = false; ///< as GridOptions has it
 };
 
 void add_radius_option(CLI::App& verb, GridRequest& request, const std::string& description);
@@ -46,9 +46,9 @@ struct GridFacts {
     double voxel = 0.0; ///< finest, scene units
     std::size_t levels = 0, bytes = 0;
     Sign sign = Sign::solid;
-    bool thinned = false;
+    bool clustered = false;
 
-    /// The larger of each; a sheet where any is, thinned where any is.
+    /// The larger of each; a sheet where any is, clustered where any is.
     void include(const GridFacts& other);
     /// For people.
     std::string text() const;

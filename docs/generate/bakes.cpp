@@ -38,7 +38,7 @@ Bake bake_once(const std::filesystem::path& file, const Choice& choice, double r
                                      "--radius",
                                      fmt::format("{}%", 100.0 * radius)};
     if (choice.method.samples > 0) {
-        command.emplace_back(choice.method.method->asks_rays ? "--rays" : "--samples");
+        command.emplace_back(choice.method.method->needs_mesh ? "--rays" : "--samples");
         command.push_back(fmt::format("{}", choice.method.samples));
     }
     if (choice.voxel > 0.0f) {

@@ -49,7 +49,8 @@ class Scene {
 class DocumentsScene : public Scene {
   public:
     Result result(const Method& method, const Settings& settings) const override {
-        Result result{render(subject_, camera_, {.samples = 1, .method = &method, .settings = settings}), {}};
+        Result result{render(renderable_, camera_, {.samples = 1, .method = &method, .settings = settings}),
+                      {}};
         for (std::size_t i = 0; i < result.image.pixels(); ++i)
             if (result.image.alpha[i] == 1.0f)
                 result.values.push_back(result.image.ao[i]);
@@ -59,7 +60,7 @@ class DocumentsScene : public Scene {
     const Method& reference() const override { return find_method("traced"); }
     int reference_rays() const override { return 256; }
     float radius(const Method& method) const override {
-        return method.document_radius > 0.0f ? method.document_radius : 1.0f;
+        return method.reference_radius > 0.0f ? method.reference_radius : 1.0f;
     }
 
   private:
@@ -70,8 +71,8 @@ class DocumentsScene : public Scene {
         return box;
     }
 
-    Subject subject_{Union(Plane{}, Sphere{{0, 1, 0}, 1.0f}, Torus{{0, 0.5f, 0}, 1.5f, 0.4f}), Frame{},
-                     box()};
+    Renderable renderable_{Union(Plane{}, Sphere{{0, 1, 0}, 1.0f}, Torus{{0, 0.5f, 0}, 1.5f, 0.4f}), Frame{},
+                           box()};
     Camera camera_{{0, 3, -6}, {0, 0.7, 0}, {0, 1, 0}, 40.0, tile};
 };
 
@@ -149,7 +150,7 @@ void write_page(const std::filesystem::path& meshes, const std::filesystem::path
         std::vector<Image> tiles;
         std::string cells;
         for (Scene* scene : scenes) {
-            if (method.asks_rays && scene == &document) {
+            if (method.needs_mesh && scene == &document) {
                 tiles.emplace_back(tile.width, tile.height);
                 cells += " no mesh |";
                 continue;

@@ -1,7 +1,7 @@
 /// What every program that writes a page of docs/ begins with.
 #pragma once
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <exception>
 #include <filesystem>

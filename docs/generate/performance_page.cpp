@@ -9,7 +9,7 @@
 
 #include "openvdb_peer.h"
 
-#include "alcove/accuracy/chart.h"
+#include "alcove/measure/detail/chart.h"
 
 #include <alcove/alcove.h>
 
@@ -72,7 +72,7 @@ choices, without the pilot; beside it, what `--error E` took, which chooses for 
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 {}
 Where the time of ours goes on the last mesh. The budget is for the first of them: the goal is a quarter of what Embree
-alone takes. Most of the start is the dynamic linker's, with the symbols of OpenVDB. Grids are of the surface thinned to
+alone takes. Most of the start is the dynamic linker's, with the symbols of OpenVDB. Grids are of the surface clustered to
 what their voxels tell, where dozens of triangles share one.
 
 {}

@@ -15,19 +15,19 @@ namespace {
 
 constexpr std::array scene_names{"documents", "pedestal", "bracket"};
 
-/// A scene of data/, staged.
+/// A scene of data/, built.
 struct Set {
     Scene scene;
-    Staged staged;
+    BuiltScene built;
     Camera camera;
 
     Set(const std::filesystem::path& data, const std::string& name, double scale,
         PassSet passes = standard_passes)
-        : scene(resized(read_scene(data / (name + ".toml")), scale)), staged(stage(scene, passes)),
-          camera(make_camera(scene.camera, staged.points, scene.size)) {}
+        : scene(resized(read_scene(data / (name + ".toml")), scale)), built(build_scene(scene, passes)),
+          camera(make_camera(scene.camera, built.points, scene.size)) {}
 
     Image draw(PassSet passes) const {
-        return render(staged.subject, camera, rendering_of(scene, staged, camera, passes));
+        return render(built.renderable, camera, rendering_of(scene, built, camera, passes));
     }
     /// The visibility of each pixel by a method, at the scene's own radius.
     std::vector<float> ao(std::string_view method,
@@ -35,7 +35,7 @@ struct Set {
         Scene other = scene;
         other.occlusion.choose(method);
         other.occlusion.parameters = std::move(parameters);
-        return render(staged.subject, camera, rendering_of(other, staged, camera, Pass::ao)).ao;
+        return render(built.renderable, camera, rendering_of(other, built, camera, Pass::ao)).ao;
     }
 
   private:
@@ -46,7 +46,7 @@ struct Set {
     }
 };
 
-/// Over the pixels that show the subject alone.
+/// Over the pixels that show the renderable alone.
 double rmse(const std::vector<float>& ao, const std::vector<float>& truth, const std::vector<float>& alpha) {
     double sum = 0.0;
     std::size_t count = 0;

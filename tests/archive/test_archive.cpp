@@ -1,16 +1,16 @@
 // Bakes every mesh of the archive and compares what comes back with what went in; prints a line for each.
 #include "off_oracle.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/ply_document.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/mesh/write.h"
-#include "alcove/occlusion/bake.h"
-#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/methods/reference/classic.h"
 
 #include <gtest/gtest.h>
 

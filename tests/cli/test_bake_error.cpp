@@ -2,7 +2,7 @@
 #include "extreme.h"
 #include "program.h"
 
-#include "alcove/accuracy/measure.h"
+#include "alcove/measure/measure.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/write.h"
 

@@ -2,12 +2,12 @@
 #include "program.h"
 #include "shapes.h"
 
-#include "alcove/grid/grid_io.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/mesh/parts.h"
+#include "alcove/mesh/detail/parts.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/mesh/write.h"
+#include "alcove/vdb/vdb_file.h"
 
 #include <algorithm>
 

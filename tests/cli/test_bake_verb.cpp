@@ -1,6 +1,6 @@
 #include "program.h"
 
-#include "alcove/mesh/ply_document.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/read.h"
 
 #include <set>

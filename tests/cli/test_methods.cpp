@@ -1,7 +1,7 @@
 /// The choice of estimators, of their parameters and of what they give, as a user meets them.
 #include "program.h"
 
-#include "alcove/mesh/ply_document.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/read.h"
 
 #include <fmt/format.h>

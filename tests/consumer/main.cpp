@@ -27,7 +27,7 @@ alcove::Mesh make_valley() {
 }
 
 double closed_form(double to_wall, const alcove::Classic& classic) {
-    const double scale = classic.radius / alcove::Classic::document_radius;
+    const double scale = classic.radius / alcove::Classic::reference_radius;
     double ao = 1.0;
     for (int i = 0; i < 5; ++i) {
         const double height = 0.01 + 0.12 * i / 4;

@@ -1,6 +1,6 @@
 #include "extreme.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,7 +48,7 @@ Baked::Baked(const Mesh& mesh, const Baking& baking)
 
 std::vector<float> Baked::by(std::string_view method) const {
     const Method& found = find_method(method);
-    const MethodChoice choice = baking_.rays > 0 && (found.asks_rays || method == "traced")
+    const MethodChoice choice = baking_.rays > 0 && (found.needs_mesh || method == "traced")
                                     ? choose(found, baking_.rays)
                                     : choose(found);
     std::vector<float> ao = bake_channels(mesh_.surfels, occluders_, found, choice.settings(baking_.radius),

@@ -1,9 +1,9 @@
 /// The extremes that results must stand, as one table: what is done to a mesh, what must come of it, and what does.
 #pragma once
 
-#include "alcove/accuracy/measure.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/occlusion/thin_walls.h"
+#include "alcove/measure/measure.h"
+#include "alcove/occlusion/detail/thin_walls.h"
 
 #include <functional>
 #include <limits>

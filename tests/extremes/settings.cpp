@@ -2,7 +2,7 @@
 #include "extreme.h"
 #include "shapes.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include "extreme.h"
 #include "shapes.h"
 
+#include "alcove/base/parallel.h"
 #include "alcove/occlusion/methods/traced.h"
-#include "alcove/parallel.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 #include "extreme.h"
 #include "shapes.h"
 
-#include "alcove/accuracy/pilot.h"
-#include "alcove/accuracy/planned_bake.h"
-#include "alcove/errors.h"
+#include "alcove/bake/detail/pilot.h"
+#include "alcove/bake/detail/planned_bake.h"
+#include "alcove/base/errors.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +62,7 @@ Result planned(const Mesh& mesh, double error) {
         VoxelizeOptions options;
         options.grid.radius = radius;
         options.grid.largest_voxel = largest;
-        options.grid.thin = true;
+        options.grid.cluster = true;
         return AnyField(LevelStack(voxelize(measured.mesh, measured.triangles, options)));
     };
     const SurfaceSize size = surface_size(measured.mesh, measured.triangles);

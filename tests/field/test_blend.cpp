@@ -1,5 +1,5 @@
-#include "alcove/field/any_field.h"
-#include "alcove/field/blend.h"
+#include "alcove/field/detail/blend.h"
+#include "alcove/field/field.h"
 #include "alcove/field/primitives.h"
 
 #include <gtest/gtest.h>

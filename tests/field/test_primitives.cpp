@@ -1,5 +1,5 @@
-#include "alcove/field/any_field.h"
 #include "alcove/field/combine.h"
+#include "alcove/field/field.h"
 #include "alcove/field/primitives.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "alcove/field/trace.h"
+#include "alcove/field/detail/trace.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"

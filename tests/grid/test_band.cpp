@@ -1,4 +1,4 @@
-#include "alcove/grid/band.h"
+#include "alcove/grid/detail/band.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(Band, TallThinNodesLoseNothing) {
             positions.push_back(Vec3d(20.3, 17.7, 10.37 + apart * k) + corner);
         triangles.push_back({first, first + 1, first + 2});
     }
-    const GroupedPieces pieces(positions, triangles);
+    const FragmentLeaves pieces(positions, triangles);
     const TriangleTree tree(pieces);
     const Pseudonormals normals(positions, triangles);
     const Band band(tree, normals, 5.0f);

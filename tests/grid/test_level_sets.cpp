@@ -1,9 +1,9 @@
 /// Every voxel of level sets against brute force, closed forms and another voxelizer.
-#include "alcove/errors.h"
-#include "alcove/grid/vdb.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
+#include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/parallel.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "alcove/grid/plan.h"
+#include "alcove/grid/detail/plan.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/parallel.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -71,19 +71,19 @@ TEST(Plan, TrianglesThatDoNotFitAreRefused) {
 TEST(Plan, AVoxelFitsOrIsRefusedWhateverTheLimit) {
     const Mesh mesh = test::sphere_mesh(5);
     for (const bool thin : {false, true}) {
-        std::size_t refused = 0, thinned = 0, whole = 0;
+        std::size_t refused = 0, clustered = 0, whole = 0;
         for (double limit = 1e5; limit < 1e9; limit *= 1.01)
             try {
-                const LevelPlan p = plan(mesh, {.thin = thin, .memory_limit = limit});
+                const LevelPlan p = plan(mesh, {.cluster = thin, .memory_limit = limit});
                 EXPECT_LE(p.bytes, limit);
                 EXPECT_LE(p.voxel, 1.0f);
-                ++(p.thin ? thinned : whole);
+                ++(p.cluster ? clustered : whole);
             } catch (const LimitError&) {
                 ++refused;
             }
         EXPECT_GT(refused, 0u);
         EXPECT_GT(whole, 0u);
-        EXPECT_EQ(thinned > 0, thin);
+        EXPECT_EQ(clustered > 0, thin);
     }
 }
 
@@ -106,7 +106,7 @@ TEST(Plan, FinerVoxelsNeverTakeLess) {
     for (const bool thin : {false, true}) {
         double last = 0.0;
         for (float voxel = 0.5f; voxel > 1e-3f; voxel *= 0.97f) {
-            const double bytes = plan(mesh, {.voxel = voxel, .thin = thin}).bytes;
+            const double bytes = plan(mesh, {.voxel = voxel, .cluster = thin}).bytes;
             EXPECT_GT(bytes, last);
             last = bytes;
         }
@@ -114,7 +114,7 @@ TEST(Plan, FinerVoxelsNeverTakeLess) {
 }
 
 TEST(Plan, DenseSurfacesAreThinnedToWhatTheirVoxelsTell) {
-    const GridOptions thin{.thin = true};
+    const GridOptions thin{.cluster = true};
     EXPECT_EQ(triangles_voxelized(1.0, 1'000'000, 0.01, {}), 1e6);
     EXPECT_LT(triangles_voxelized(1.0, 1'000'000, 0.01, thin), 2e5);
     EXPECT_EQ(triangles_voxelized(1.0, 10'000'000, 0.01, thin),

@@ -1,4 +1,4 @@
-#include "alcove/mesh/clip.h"
+#include "alcove/mesh/detail/clip.h"
 
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/triangulate.h"

@@ -1,7 +1,7 @@
 #include "scratch_files.h"
 
-#include "alcove/errors.h"
-#include "alcove/mesh/formats.h"
+#include "alcove/base/errors.h"
+#include "alcove/mesh/formats/formats.h"
 
 #include <algorithm>
 #include <random>

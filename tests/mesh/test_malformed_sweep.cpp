@@ -1,9 +1,9 @@
 #include "announced.h"
 #include "damages.h"
 
-#include "alcove/errors.h"
-#include "alcove/mesh/formats.h"
-#include "alcove/messages.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/mesh/formats/formats.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "alcove/mesh/mesh.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "alcove/mesh/normals.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/parallel.h"
 
 #include <gtest/gtest.h>
 

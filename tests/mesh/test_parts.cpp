@@ -1,4 +1,4 @@
-#include "alcove/mesh/parts.h"
+#include "alcove/mesh/detail/parts.h"
 
 #include "alcove/mesh/diagnose.h"
 #include "solids.h"

@@ -1,6 +1,6 @@
 #include "scratch_files.h"
 
-#include "alcove/mesh/ply_document.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "alcove/mesh/triangulate.h"
 
-#include "alcove/parallel.h"
+#include "alcove/base/parallel.h"
 
 #include <gtest/gtest.h>
 

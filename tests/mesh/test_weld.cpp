@@ -1,4 +1,4 @@
-#include "alcove/mesh/weld.h"
+#include "alcove/mesh/detail/weld.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 /// The bent normals of Traced and Classic: in closed form, and against exact rays on scans.
-#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/methods/reference/classic.h"
 #include "alcove/occlusion/methods/traced.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "alcove/mesh/read.h"
-#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/evaluate.h"
 #include "exact_distance.h"
 #include "voxelized.h"
 

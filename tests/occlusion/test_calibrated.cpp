@@ -5,10 +5,10 @@
 #include "alcove/field/primitives.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/occlusion/bake.h"
-#include "documents_scene.h"
+#include "alcove/occlusion/evaluate.h"
 #include "exact_distance.h"
 #include "real_mesh.h"
+#include "reference_scene.h"
 #include "shapes.h"
 
 #include <fmt/format.h>

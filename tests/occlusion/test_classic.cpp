@@ -1,9 +1,9 @@
-#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/methods/reference/classic.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/occlusion/bake.h"
-#include "documents_scene.h"
+#include "alcove/occlusion/evaluate.h"
+#include "reference_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ TEST(Classic, MoreSamplesTendToTheIntegral) {
     const Union corner(Plane{}, Plane{{1, 0, 0}, 0.0f});
     const std::vector<Surfel> surfels{{{0.05f, 0, 0}, {0, 1, 0}}};
     const auto ao = [&](int samples) {
-        return bake(surfels, corner, Classic{.radius = Classic::document_radius, .samples = samples}).front();
+        return bake(surfels, corner, Classic{.radius = Classic::reference_radius, .samples = samples})
+            .front();
     };
     // The weighted mean of h - min(h, 0.05) over the heights, times what five weights come to.
     double integral = 0.0, weights = 0.0;

@@ -1,10 +1,10 @@
 /// The convexity of Classic: flat, edge and corner, and against the angles of the mesh itself.
-#include "alcove/occlusion/methods/classic.h"
+#include "alcove/occlusion/methods/reference/classic.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "alcove/mesh/read.h"
-#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/evaluate.h"
 #include "shapes.h"
 #include "voxelized.h"
 

@@ -1,8 +1,8 @@
 /// exact against closed forms on triangles (J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration
 /// Factors", 1982), against every triangle tried in double precision, and against rays shot elsewhere.
-#include "alcove/occlusion/exact.h"
+#include "alcove/occlusion/methods/exact.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 #include "alcove/mesh/normals.h"
 #include "exact_distance.h"
 #include "real_mesh.h"

@@ -1,6 +1,6 @@
 /// guided against closed forms: its rays shared must be better than alone, and never shared with a surfel that
 /// sees something else.
-#include "alcove/occlusion/guided.h"
+#include "alcove/occlusion/methods/guided.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/level_stack.h"

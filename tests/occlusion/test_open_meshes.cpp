@@ -3,7 +3,7 @@
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/evaluate.h"
 #include "alcove/occlusion/methods/traced.h"
 #include "exact_distance.h"
 #include "real_mesh.h"

@@ -1,5 +1,5 @@
 /// Sheets stop rays however they lie in the grid: on its planes, between them, across them.
-#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/evaluate.h"
 #include "alcove/occlusion/methods/traced.h"
 #include "voxelized.h"
 

@@ -2,7 +2,7 @@
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/occlusion/bake.h"
+#include "alcove/occlusion/evaluate.h"
 #include "shapes.h"
 #include "voxelized.h"
 

@@ -1,4 +1,4 @@
-#include "alcove/occlusion/triangle_pairs.h"
+#include "alcove/occlusion/detail/triangle_pairs.h"
 
 #include <gtest/gtest.h>
 

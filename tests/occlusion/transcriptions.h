@@ -2,7 +2,7 @@
 /// knows the library's own versions.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <functional>
 

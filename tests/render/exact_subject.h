@@ -2,14 +2,14 @@
 #pragma once
 
 #include "alcove/render/camera.h"
-#include "alcove/render/subject.h"
+#include "alcove/render/renderable.h"
 
 namespace alcove {
 
 /// Exact shapes, as if they were the unit space of a scene five times as large and elsewhere.
 inline const Frame frame{{10.0, -20.0, 30.0}, 5.0};
 
-inline Subject subject_of(AnyField field, const Vec3& low, const Vec3& high) {
+inline Renderable renderable_of(AnyField field, const Vec3& low, const Vec3& high) {
     Box box;
     box.add(frame.to_scene(low));
     box.add(frame.to_scene(high));

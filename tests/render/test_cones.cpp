@@ -1,4 +1,4 @@
-#include "alcove/render/cones.h"
+#include "alcove/render/detail/cones.h"
 
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"

@@ -102,14 +102,14 @@ TEST_P(LevelSetPicture, ShowsTheExactShapeToAFractionOfAVoxel) {
     const std::vector<Triangle> triangles = triangulate(shape.mesh).triangles;
     const GridStack stack = voxelize(shape.mesh, triangles, {.grid = {.voxel = 1.0f / 256.0f}});
     const Frame frame = frame_of(shape.mesh.box());
-    const Subject subject{LevelStack(stack), frame, shape.mesh.box()};
+    const Renderable renderable{LevelStack(stack), frame, shape.mesh.box()};
     const double voxel = frame.diagonal / 256.0;
     const ImageSize size{480, 360};
     Seen seen;
     // From three quarters, each way up.
     for (const Vec3d& up : {Vec3d(0, 1, 0), Vec3d(1, 0, 0), Vec3d(0, 0, 1)}) {
         const Camera camera = make_camera({.up = up}, shape.mesh.positions, size);
-        const Image image = render(subject, camera, {.samples = 1, .passes = Pass::depth});
+        const Image image = render(renderable, camera, {.samples = 1, .passes = Pass::depth});
         const auto direction = [&](std::size_t i) {
             return camera.direction(static_cast<double>(i % 480) + 0.5, static_cast<double>(i / 480) + 0.5);
         };

@@ -1,4 +1,4 @@
-#include "alcove/render/painted.h"
+#include "alcove/render/detail/painted.h"
 
 #include <gtest/gtest.h>
 

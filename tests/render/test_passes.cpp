@@ -15,23 +15,23 @@ PassSet everything() {
 }
 
 /// A ball and a ring, on a ground.
-Subject ball_and_ring() {
+Renderable ball_and_ring() {
     const Sphere ball{{-0.15f, 0.0f, 0.0f}, 0.12f};
     const Torus ring{{0.2f, -0.08f, 0.0f}, 0.12f, 0.04f};
-    Subject subject = subject_of(Union(ball, ring), {-0.3f, -0.12f, -0.2f}, {0.4f, 0.12f, 0.2f});
-    subject.parts = {{ball, {.color = Vec3(1, 0, 0)}}, {ring, {.color = Vec3(0, 1, 0)}}};
-    subject.grounds = {
+    Renderable renderable = renderable_of(Union(ball, ring), {-0.3f, -0.12f, -0.2f}, {0.4f, 0.12f, 0.2f});
+    renderable.parts = {{ball, {.color = Vec3(1, 0, 0)}}, {ring, {.color = Vec3(0, 1, 0)}}};
+    renderable.grounds = {
         {.plane = {{0, 1, 0}, -0.12f}, .whole = 1.0f, .gone = 2.0f, .material = {.color = Vec3(0, 0, 1)}}};
-    return subject;
+    return renderable;
 }
 
 TEST(Passes, EveryObjectHasItsNumberPlaceAndMaterial) {
-    const Subject subject = ball_and_ring();
+    const Renderable renderable = ball_and_ring();
     const ImageSize size{120, 90};
     const Camera camera = camera_at({0.1f, 0.5f, 1.1f}, {0.05f, -0.05f, 0.0f}, size);
     RenderOptions options{.samples = 1, .passes = everything()};
     options.lighting.key = options.lighting.ground = Vec3(0.0f);
-    const Image image = render(subject, camera, options);
+    const Image image = render(renderable, camera, options);
     std::array<int, 4> seen{};
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const auto object = static_cast<std::size_t>(image.object[i]);
@@ -41,9 +41,9 @@ TEST(Passes, EveryObjectHasItsNumberPlaceAndMaterial) {
             EXPECT_EQ(image.alpha[i], 0.0f);
             continue;
         }
-        const Vec3 p = subject.frame.to_unit(Vec3d(image.position[i]));
+        const Vec3 p = renderable.frame.to_unit(Vec3d(image.position[i]));
         const float distance =
-            object == 3 ? subject.grounds[0].plane.map(p) : subject.parts[object - 1].field.map(p);
+            object == 3 ? renderable.grounds[0].plane.map(p) : renderable.parts[object - 1].field.map(p);
         EXPECT_NEAR(distance, 0.0f, 1e-4f);
         const Vec3d seen_at = camera.project(Vec3d(image.position[i]));
         EXPECT_NEAR(seen_at.x, static_cast<double>(i % 120) + 0.5, 1e-2);
@@ -60,14 +60,14 @@ TEST(Passes, EveryObjectHasItsNumberPlaceAndMaterial) {
 }
 
 TEST(Passes, APassIsTheSameWhateverElseIsAsked) {
-    const Subject subject = ball_and_ring();
+    const Renderable renderable = ball_and_ring();
     const Camera camera = camera_at({0.1f, 0.5f, 1.1f}, {0.05f, -0.05f, 0.0f}, {80, 60});
     RenderOptions options{
         .samples = 2, .method = &find_method("classic"), .casts_shadow = true, .passes = everything()};
-    const Image all = render(subject, camera, options);
+    const Image all = render(renderable, camera, options);
     for (const PassInfo& info : all_passes) {
         options.passes = info.pass;
-        const Image one = render(subject, camera, options);
+        const Image one = render(renderable, camera, options);
         EXPECT_EQ(one.alpha, all.alpha);
         const auto expect_same = [&](Pass pass, const auto& values, const auto& of_all) {
             if (pass == info.pass) {
@@ -89,24 +89,24 @@ TEST(Passes, APassIsTheSameWhateverElseIsAsked) {
 }
 
 TEST(Passes, LightThatCastsNoShadowsCastsNoneBesideTheirPass) {
-    const Subject subject = ball_and_ring();
+    const Renderable renderable = ball_and_ring();
     const Camera camera = camera_at({0.1f, 0.5f, 1.1f}, {0.05f, -0.05f, 0.0f}, {80, 60});
     RenderOptions options{.samples = 1, .passes = everything()};
     options.lighting.toward_key = glm::normalize(Vec3(1, 1, 0.2f));
-    const Image all = render(subject, camera, options);
+    const Image all = render(renderable, camera, options);
     options.passes = Pass::beauty;
-    EXPECT_EQ(all.color, render(subject, camera, options).color);
+    EXPECT_EQ(all.color, render(renderable, camera, options).color);
     options.casts_shadow = true;
-    EXPECT_NE(all.color, render(subject, camera, options).color);
+    EXPECT_NE(all.color, render(renderable, camera, options).color);
 }
 
 TEST(Passes, ConvexEdgesTakeTheirColour) {
-    Subject subject = subject_of(Cuboid{{0, 0, 0}, {0.2f, 0.2f, 0.2f}}, Vec3(-0.2f), Vec3(0.2f));
-    subject.parts = {{subject.field, {.color = Vec3(0, 0, 1), .edge_color = Vec3(1, 0, 0)}}};
+    Renderable renderable = renderable_of(Cuboid{{0, 0, 0}, {0.2f, 0.2f, 0.2f}}, Vec3(-0.2f), Vec3(0.2f));
+    renderable.parts = {{renderable.field, {.color = Vec3(0, 0, 1), .edge_color = Vec3(1, 0, 0)}}};
     const Camera camera = camera_at({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {101, 101}, 40.0);
     RenderOptions options{.samples = 1};
     options.settings.radius = 0.1f;
-    const Image image = render(subject, camera, options);
+    const Image image = render(renderable, camera, options);
     const Vec3& middle = image.color[50 * 101 + 50];
     EXPECT_LT(middle.x, 1e-3f);
     EXPECT_GT(middle.z, 0.1f);
@@ -124,10 +124,10 @@ TEST(Passes, SamplesFallWithTheDistance) {
     EXPECT_EQ(samples_at(26.0f, 5, fewer), 3);
     EXPECT_EQ(samples_at(80.0f, 5, fewer), 2);
 
-    const Subject subject = ball_and_ring();
+    const Renderable renderable = ball_and_ring();
     const Camera camera = camera_at({0.1f, 0.5f, 1.1f}, {0.05f, -0.05f, 0.0f}, {80, 60});
     const auto ao = [&](std::optional<FewerSamples> fewer_samples, double samples) {
-        return render(subject, camera,
+        return render(renderable, camera,
                       {.samples = 1,
                        .method = &find_method("classic"),
                        .settings = {.radius = 0.2f, .parameters = {{"samples", samples}}},

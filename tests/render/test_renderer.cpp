@@ -1,9 +1,9 @@
 #include "alcove/render/renderer.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/parallel.h"
 #include "exact_subject.h"
 #include "scratch_folder.h"
 
@@ -18,8 +18,8 @@ namespace {
 constexpr float radius = 0.25f; // unit space
 const Vec3 center(0.05f, -0.02f, 0.1f);
 
-Subject sphere() {
-    return subject_of(Sphere{center, radius}, center - radius, center + radius);
+Renderable sphere() {
+    return renderable_of(Sphere{center, radius}, center - radius, center + radius);
 }
 
 double covered(const Image& image) {
@@ -88,7 +88,7 @@ TEST(Renderer, FarEyeSeesTheSame) {
 }
 
 TEST(Renderer, OpenPlaneIsNotOccluded) {
-    const Subject plane = subject_of(Plane{}, {-0.4f, -0.01f, -0.4f}, {0.4f, 0.01f, 0.4f});
+    const Renderable plane = renderable_of(Plane{}, {-0.4f, -0.01f, -0.4f}, {0.4f, 0.01f, 0.4f});
     const Camera camera = camera_at({0.3f, 0.5f, 0.9f}, {0.0f, 0.0f, 0.0f}, {80, 60}, 15.0);
     const Image image = render(plane, camera, {.method = &find_method("classic")});
     for (std::size_t i = 0; i < image.pixels(); ++i) {
@@ -99,13 +99,13 @@ TEST(Renderer, OpenPlaneIsNotOccluded) {
 
 TEST(Renderer, OcclusionDarkensACornerAndOnlyAmbientLight) {
     const auto corner = Union(Plane{}, Plane{{1.0f, 0.0f, 0.0f}, -0.2f});
-    const Subject subject = subject_of(corner, {-0.2f, -0.01f, -0.3f}, {0.4f, 0.4f, 0.3f});
+    const Renderable renderable = renderable_of(corner, {-0.2f, -0.01f, -0.3f}, {0.4f, 0.4f, 0.3f});
     const Camera camera = camera_at({0.7f, 0.6f, 0.2f}, {-0.1f, 0.05f, 0.0f}, {160, 120}, 20.0);
     const Lighting lighting = studio_lighting(camera, {0.0, 1.0, 0.0});
     RenderOptions options{.samples = 1, .method = &find_method("classic"), .lighting = lighting};
     options.settings.radius = 0.1f;
-    const Image image = render(subject, camera, options);
-    const Image open = render(subject, camera, {.samples = 1, .lighting = lighting});
+    const Image image = render(renderable, camera, options);
+    const Image open = render(renderable, camera, {.samples = 1, .lighting = lighting});
     float darkest = 1.0f, brightest = 0.0f;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         ASSERT_EQ(image.alpha[i], 1.0f);
@@ -120,10 +120,11 @@ TEST(Renderer, OcclusionDarkensACornerAndOnlyAmbientLight) {
 }
 
 TEST(Renderer, NothingButTheBoxIsDrawn) {
-    const Subject subject{Union(Sphere{Vec3(-0.2f, 0.0f, 0.0f), 0.1f}, Sphere{Vec3(0.2f, 0.0f, 0.0f), 0.1f}),
-                          frame, subject_of(Plane{}, {0.09f, -0.1f, -0.1f}, {0.3f, 0.1f, 0.1f}).box};
+    const Renderable renderable{
+        Union(Sphere{Vec3(-0.2f, 0.0f, 0.0f), 0.1f}, Sphere{Vec3(0.2f, 0.0f, 0.0f), 0.1f}), frame,
+        renderable_of(Plane{}, {0.09f, -0.1f, -0.1f}, {0.3f, 0.1f, 0.1f}).box};
     const Camera camera = camera_at({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {100, 60}, 50.0);
-    const Image image = render(subject, camera, {});
+    const Image image = render(renderable, camera, {});
     double left = 0.0, right = 0.0;
     for (std::size_t i = 0; i < image.pixels(); ++i)
         (i % 100 < 50 ? left : right) += static_cast<double>(image.alpha[i]);
@@ -137,10 +138,10 @@ TEST(Renderer, EveryValueIsFiniteEvenWithoutAGradient) {
         float resolution() const { return 0.01f; }
         bool two_sided() const { return true; }
     };
-    const Subject subject = subject_of(Flat{}, {-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f});
+    const Renderable renderable = renderable_of(Flat{}, {-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f});
     const Vec3 eyes[] = {{0.2f, 0.1f, 1.0f}, {0.0f, 0.0f, -0.1f}, {0.3f, 0.3f, 0.0f}};
     for (const Vec3& eye : eyes) {
-        const Image image = render(subject, camera_at(eye, {0.01f, 0.0f, -0.01f}, {40, 30}, 90.0),
+        const Image image = render(renderable, camera_at(eye, {0.01f, 0.0f, -0.01f}, {40, 30}, 90.0),
                                    {.method = &find_method("traced")});
         for (std::size_t i = 0; i < image.pixels(); ++i) {
             for (int c = 0; c < 3; ++c) {
@@ -185,11 +186,11 @@ struct Sheet {
 };
 
 TEST(Renderer, SheetSeenFromBehindIsSmooth) {
-    const Subject subject = subject_of(Sheet{}, {-0.2f, -0.2f, -0.1f}, {0.2f, 0.2f, 0.1f});
+    const Renderable renderable = renderable_of(Sheet{}, {-0.2f, -0.2f, -0.1f}, {0.2f, 0.2f, 0.1f});
     const Vec3 front = glm::normalize(Vec3(-0.1f, 0.03f, 1.0f));
     for (const float side : {1.0f, -1.0f}) {
         const Camera camera = camera_at({0.1f, 0.2f, side}, {0.0f, 0.0f, 0.0f}, {90, 60}, 15.0);
-        const Image image = render(subject, camera, {.samples = 1});
+        const Image image = render(renderable, camera, {.samples = 1});
         for (int y = 0; y < 60; ++y)
             for (int x = 0; x < 90; ++x) {
                 const auto i = static_cast<std::size_t>(y * 90 + x);
@@ -208,13 +209,13 @@ TEST(Renderer, SheetSeenFromBehindIsSmooth) {
 TEST(Renderer, ThreadsDoNotMatter) {
     const ScratchFolder folder;
     const auto scene = Union(Sphere{center, radius}, Torus{{0.0f, -0.2f, 0.0f}, 0.3f, 0.08f});
-    const Subject subject = subject_of(scene, {-0.4f, -0.3f, -0.4f}, {0.4f, 0.4f, 0.4f});
+    const Renderable renderable = renderable_of(scene, {-0.4f, -0.3f, -0.4f}, {0.4f, 0.4f, 0.4f});
     const Camera camera = camera_at({0.5f, 0.6f, 1.0f}, {0.0f, 0.0f, 0.0f}, {160, 120});
     RenderOptions options{.method = &find_method("traced")};
     options.settings.radius = 0.2f;
     const auto file_with = [&](unsigned threads, const char* name) {
         const ThreadLimit limit(threads);
-        write_exr(render(subject, camera, options), folder / name, {});
+        write_exr(render(renderable, camera, options), folder / name, {});
         return bytes_of(folder / name);
     };
     const std::string one = file_with(1, "one.exr");

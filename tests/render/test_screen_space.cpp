@@ -1,9 +1,9 @@
-#include "alcove/render/screen_space.h"
+#include "alcove/render/detail/screen_space.h"
 
+#include "alcove/base/parallel.h"
 #include "alcove/field/combine.h"
-#include "alcove/occlusion/directions.h"
-#include "alcove/parallel.h"
-#include "alcove/render/march_steps.h"
+#include "alcove/occlusion/detail/directions.h"
+#include "alcove/render/detail/march_steps.h"
 #include "alcove/render/renderer.h"
 #include "exact_subject.h"
 
@@ -16,9 +16,9 @@ namespace {
 
 constexpr ImageSize size{120, 90};
 
-Subject corner() {
-    return subject_of(Union(Plane{}, Plane{{1.0f, 0.0f, 0.0f}, -0.2f}), {-0.2f, -0.01f, -0.5f},
-                      {0.6f, 0.5f, 0.5f});
+Renderable corner() {
+    return renderable_of(Union(Plane{}, Plane{{1.0f, 0.0f, 0.0f}, -0.2f}), {-0.2f, -0.01f, -0.5f},
+                         {0.6f, 0.5f, 0.5f});
 }
 const Camera camera = camera_at({0.7f, 0.6f, 0.2f}, {-0.1f, 0.05f, 0.0f}, size, 25.0);
 
@@ -80,7 +80,7 @@ TEST(ScreenSpace, IsTheFormulaOfItsSource) {
 }
 
 TEST(ScreenSpace, AnOpenPlaneIsOpen) {
-    const Subject plane = subject_of(Plane{}, {-0.6f, -0.01f, -0.6f}, {0.6f, 0.01f, 0.6f});
+    const Renderable plane = renderable_of(Plane{}, {-0.6f, -0.01f, -0.6f}, {0.6f, 0.01f, 0.6f});
     const Camera above = camera_at({0.3f, 0.5f, 0.9f}, {0.0f, 0.0f, 0.0f}, size, 25.0);
     for (int blur = 0; blur <= 2; ++blur)
         for (const float ao : ScreenSpace{.blur = blur}(plane, above))
@@ -120,7 +120,7 @@ TEST(ScreenSpace, BilateralBlurSmoothsAPlaneAndKeepsTheEdgeOfAnother) {
 }
 
 TEST(ScreenSpace, ThreadsDoNotMatterAndWhatIsNotSeenIsOpen) {
-    const Subject ball = subject_of(Sphere{{0, 0, 0}, 0.2f}, Vec3(-0.2f), Vec3(0.2f));
+    const Renderable ball = renderable_of(Sphere{{0, 0, 0}, 0.2f}, Vec3(-0.2f), Vec3(0.2f));
     const Camera view = camera_at({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, size);
     const auto with = [&](unsigned threads) {
         const ThreadLimit limit(threads);
@@ -132,7 +132,8 @@ TEST(ScreenSpace, ThreadsDoNotMatterAndWhatIsNotSeenIsOpen) {
 
 TEST(MarchSteps, CountsTheStepsOfAPlainRay) {
     // Straight toward a plane: one step to it, one that finds it near enough.
-    const Subject plane = subject_of(Plane{{0, 0, 1}, 0.0f}, {-1.0f, -1.0f, -0.01f}, {1.0f, 1.0f, 0.01f});
+    const Renderable plane =
+        renderable_of(Plane{{0, 0, 1}, 0.0f}, {-1.0f, -1.0f, -0.01f}, {1.0f, 1.0f, 0.01f});
     const Camera view = camera_at({0.0f, 0.0f, 0.5f}, {0.0f, 0.0f, 0.0f}, {3, 3}, 1e-3);
     for (const float ao : MarchSteps{.max_steps = 11}(plane, view))
         EXPECT_FLOAT_EQ(ao, 1.0f - 2.0f / 10.0f);

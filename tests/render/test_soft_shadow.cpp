@@ -1,8 +1,8 @@
 #include "alcove/render/soft_shadow.h"
 
+#include "alcove/base/parallel.h"
 #include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/parallel.h"
 
 #include <gtest/gtest.h>
 

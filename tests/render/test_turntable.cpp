@@ -1,4 +1,4 @@
-#include "alcove/render/turntable.h"
+#include "alcove/render/detail/turntable.h"
 
 #include <gtest/gtest.h>
 

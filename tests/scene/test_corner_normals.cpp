@@ -1,4 +1,4 @@
-#include "alcove/scene/corner_normals.h"
+#include "alcove/scene/detail/corner_normals.h"
 
 #include "alcove/mesh/triangulate.h"
 #include "shapes.h"

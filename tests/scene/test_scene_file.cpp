@@ -1,6 +1,6 @@
 #include "scene_text.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 namespace alcove::test {
 namespace {

@@ -1,7 +1,7 @@
 /// The picture's own occlusion against traced rays on whole scenes.
-#include "alcove/render/screen_space.h"
+#include "alcove/render/detail/screen_space.h"
+#include "alcove/scene/build.h"
 #include "alcove/scene/scene_file.h"
-#include "alcove/scene/staging.h"
 
 #include <gtest/gtest.h>
 
@@ -16,15 +16,15 @@ TEST_P(ScreenSpaceScene, BilateralBlurIsNearerToTracedRaysThanNoneAndGaussian) {
     Scene scene = read_scene(std::string(ALCOVE_DATA "/") + GetParam() + ".toml");
     scene.samples = 1;
     scene.size = {scene.size.width / 4, scene.size.height / 4};
-    const Staged staged = stage(scene);
-    const Camera camera = make_camera(scene.camera, staged.points, scene.size);
-    RenderOptions options = rendering_of(scene, staged, camera, Pass::ao);
+    const BuiltScene built = build_scene(scene);
+    const Camera camera = make_camera(scene.camera, built.points, scene.size);
+    RenderOptions options = rendering_of(scene, built, camera, Pass::ao);
     options.settings.parameters = {{"rays", 64.0}};
-    const Image traced = render(staged.subject, camera, options);
-    const DepthBuffer seen = look(staged.subject, camera);
+    const Image traced = render(built.renderable, camera, options);
+    const DepthBuffer seen = look(built.renderable, camera);
     const auto error = [&](Blur blur) {
         ScreenSpace method{.blur = static_cast<int>(blur)};
-        const std::vector<float> ao = method(seen, double(staged.radius) * staged.subject.frame.diagonal);
+        const std::vector<float> ao = method(seen, double(built.radius) * built.renderable.frame.diagonal);
         double sum = 0.0;
         int count = 0;
         for (std::size_t i = 0; i < ao.size(); ++i)

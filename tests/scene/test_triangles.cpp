@@ -1,9 +1,9 @@
 /// What pictures take from triangles: normals, painted values, exact rays.
 #include "scene_text.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 #include "alcove/mesh/write.h"
-#include "alcove/scene/staging.h"
+#include "alcove/scene/build.h"
 #include "shapes.h"
 
 #include <cmath>
@@ -12,16 +12,16 @@ namespace alcove::test {
 namespace {
 
 struct Drawn {
-    Staged staged;
+    BuiltScene built;
     Camera camera;
     Image image;
 };
 
 Drawn draw(const Scene& scene, PassSet passes) {
-    Staged staged = stage(scene, passes);
-    const Camera camera = make_camera(scene.camera, staged.points, scene.size);
-    Image image = render(staged.subject, camera, rendering_of(scene, staged, camera, passes));
-    return {std::move(staged), camera, std::move(image)};
+    BuiltScene built = build_scene(scene, passes);
+    const Camera camera = make_camera(scene.camera, built.points, scene.size);
+    Image image = render(built.renderable, camera, rendering_of(scene, built, camera, passes));
+    return {std::move(built), camera, std::move(image)};
 }
 
 /// A coarse ball of few triangles as a file, its vertices black above and white below.
@@ -156,17 +156,18 @@ TEST_F(BallFile, OfAnObjectAreNotTakenForThoseOfOneThatCrossesIt) {
 TEST_F(BallFile, ABlendedCutOfAMeshIsThatOfItsShape) {
     write("fine.ply", 5);
     const auto cut = [&](const std::string& ball) {
-        return stage(scene_from("[[object]]\nshape = \"difference\"\nblend = 0.6\n[[object.part]]\n" + ball +
-                                "[[object.part]]\nshape = \"sphere\"\ncenter = [0, 1.2, 0]\nradius = 0.8\n"));
+        return build_scene(
+            scene_from("[[object]]\nshape = \"difference\"\nblend = 0.6\n[[object.part]]\n" + ball +
+                       "[[object.part]]\nshape = \"sphere\"\ncenter = [0, 1.2, 0]\nradius = 0.8\n"));
     };
-    const Staged meshed = cut("shape = \"mesh\"\nfile = \"" + (folder_ / "fine.ply").string() + "\"\n");
-    const Staged exact = cut("shape = \"sphere\"\n");
+    const BuiltScene meshed = cut("shape = \"mesh\"\nfile = \"" + (folder_ / "fine.ply").string() + "\"\n");
+    const BuiltScene exact = cut("shape = \"sphere\"\n");
     for (double x = -0.9; x < 1.0; x += 0.1)
         for (double y = -0.9; y < 1.0; y += 0.1) {
             const Vec3d p(x, y, 0.05);
-            const auto at = [&](const Staged& staged) {
-                return double(staged.subject.field.map(staged.subject.frame.to_unit(p))) *
-                       staged.subject.frame.diagonal;
+            const auto at = [&](const BuiltScene& built) {
+                return double(built.renderable.field.map(built.renderable.frame.to_unit(p))) *
+                       built.renderable.frame.diagonal;
             };
             if (std::fabs(at(exact)) < 0.1) {
                 EXPECT_NEAR(at(meshed), at(exact), 0.015);
@@ -186,7 +187,7 @@ shape = "sphere"
 radius = 100
 center = [500, 0, 0]
 )");
-    EXPECT_NE(stage(scene).subject.mesh, nullptr);
+    EXPECT_NE(build_scene(scene).renderable.mesh, nullptr);
 }
 
 /// Exact rays on the triangles of primitives and differences against rays traced through the same fields.

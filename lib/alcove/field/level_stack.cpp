@@ -1,5 +1,7 @@
 #include "alcove/field/level_stack.h"
 
+#include "alcove/field/detail/bricks.h"
+
 #include <algorithm>
 #include <array>
 
@@ -23,6 +25,14 @@ std::size_t LevelStack::bytes() const {
     for (const Bricks& level : *levels_)
         sum += level.bytes();
     return sum;
+}
+
+float LevelStack::resolution() const {
+    return levels_->front().voxel();
+}
+
+float LevelStack::reach() const {
+    return levels_->back().usable();
 }
 
 float LevelStack::extent() const {

@@ -1,11 +1,15 @@
 /// The field of a grid stack: each distance from the finest level that knows it.
 #pragma once
 
-#include "alcove/field/bricks.h"
+#include "alcove/field/field.h"
+#include "alcove/grid/grid_stack.h"
 
 #include <memory>
+#include <vector>
 
 namespace alcove {
+
+class Bricks; // one level as the sampler reads it (field/detail/bricks.h)
 
 /// Distances in unit space, trilinear on the finest level whose band holds them: neither saturated values nor
 /// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the
@@ -23,12 +27,12 @@ class LevelStack {
     void map(const Points& points, float reach, float* distances) const;
 
     /// Edge of the finest voxel.
-    float resolution() const { return levels_->front().voxel(); }
+    float resolution() const;
     /// Whether it is that of a sheet.
     bool two_sided() const { return two_sided_; }
     float extent() const;
     /// Largest distance that is right.
-    float reach() const { return levels_->back().usable(); }
+    float reach() const;
     const std::vector<Bricks>& levels() const { return *levels_; }
     std::size_t bytes() const;
 

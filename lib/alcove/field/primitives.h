@@ -1,7 +1,7 @@
 /// Exact signed distances of simple shapes. Source: I. Quilez, "Distance functions" (2008).
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// before and the same band counted in voxels.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -43,8 +43,8 @@ struct GridStack {
     double value_unit = 1.0;
     Sign sign = Sign::solid;
     std::vector<LevelSet> levels;
-    bool thinned = false; ///< of fewer triangles than the surface has, as GridOptions::thin has it
-    std::string creator;  ///< the program that wrote the file these were read from, if it says so
+    bool clustered = false; ///< of fewer triangles than the surface has, as GridOptions::cluster has it
+    std::string creator;    ///< the program that wrote the file these were read from, if it says so
     std::vector<std::string> warnings; ///< what the surface lost on its way into the grid, in words
 
     /// Largest distance, unit space, that the last level holds.

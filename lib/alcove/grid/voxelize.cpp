@@ -1,12 +1,13 @@
 #include "alcove/grid/voxelize.h"
 
-#include "alcove/errors.h"
-#include "alcove/grid/level_set.h"
-#include "alcove/grid/solidity.h"
-#include "alcove/grid/thinned.h"
-#include "alcove/grid/twins.h"
-#include "alcove/huge_pages.h"
-#include "alcove/parallel.h"
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
+#include "alcove/grid/detail/clustered.h"
+#include "alcove/grid/detail/duplicate_faces.h"
+#include "alcove/grid/detail/level_set.h"
+#include "alcove/grid/detail/plan.h"
+#include "alcove/grid/detail/sign.h"
 
 #include <fmt/format.h>
 
@@ -34,10 +35,10 @@ HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Ve
 }
 
 TriangleTree tree_of(const Surface& surface) {
-    const GroupedPieces pieces(surface.positions, surface.triangles);
-    if (pieces.count() == 0)
+    const FragmentLeaves fragments(surface.positions, surface.triangles);
+    if (fragments.count() == 0)
         throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
-    return TriangleTree(pieces);
+    return TriangleTree(fragments);
 }
 
 }
@@ -53,17 +54,17 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     // What is inside is asked of all triangles, how far the surface is of those that are kept.
     const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
-    std::optional<ThinnedSurface> thinned;
-    if (plan.thin) {
-        thinned.emplace(whole, thinned_cell);
-        check_thinned(plan, thinned->surface().triangles.size(), options.grid);
-        stack.thinned = thinned->surface().triangles.size() < triangles.size();
+    std::optional<ClusteredSurface> clustered;
+    if (plan.cluster) {
+        clustered.emplace(whole, cluster_cell);
+        check_clustered(plan, clustered->surface().triangles.size(), options.grid);
+        stack.clustered = clustered->surface().triangles.size() < triangles.size();
     }
     stack.sign = choose_sign(options.sign, mesh, columns, positions, triangles, stack.warnings);
-    Surface near = thinned ? thinned->surface() : whole;
+    Surface near = clustered ? clustered->surface() : whole;
     std::vector<Triangle> single;
     if (stack.sign == Sign::sheet) {
-        single = without_twins(near.positions, near.triangles);
+        single = without_duplicate_faces(near.positions, near.triangles);
         near.triangles = single;
     }
     const TriangleTree tree = tree_of(near);

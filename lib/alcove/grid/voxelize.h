@@ -2,12 +2,30 @@
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
-#include "alcove/grid/plan.h"
 #include "alcove/mesh/mesh.h"
 
 #include <functional>
 
 namespace alcove {
+
+struct GridOptions {
+    /// Largest distance from the surface that is asked for, unit space, > 0; infinity is cut to the diagonal.
+    float radius = 0.1f;
+    /// Edge of the finest voxel, unit space; 0 chooses `largest_voxel`, or radius/8 where that is finer, down
+    /// to 1/1024.
+    float voxel = 0.0f;
+    /// What a chosen voxel is at most, unit space, > 0, unless memory asks for more.
+    float largest_voxel = 1.0f / 256.0f;
+    /// Voxels outward from the surface on every level, at least 3: map() is right up to one less.
+    float outer_band = 5.0f;
+    /// Voxels inward on every level of a solid, at least 2. Occlusion never looks deeper.
+    float inner_band = 2.0f;
+    /// Where triangles are far smaller than voxels, the grids are of fewer that lie near them: a few hundredths of a voxel
+    /// away as a rule, √3 voxels at most.
+    bool cluster = false;
+    /// Bytes that grids and what builds them may take.
+    double memory_limit = 4.0 * (1u << 30);
+};
 
 enum class SignChoice {
     automatic, ///< solid where the mesh is closed, oriented outward and hides no part in another, else sheet

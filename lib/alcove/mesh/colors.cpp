@@ -1,4 +1,4 @@
-#include "alcove/mesh/colors.h"
+#include "alcove/mesh/write.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "alcove/mesh/diagnose.h"
 
-#include "alcove/huge_pages.h"
-#include "alcove/mesh/edge_table.h"
+#include "alcove/base/detail/memory.h"
+#include "alcove/mesh/detail/edge_table.h"
+#include "alcove/mesh/detail/weld.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/weld.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 /// A polygon mesh as an indexed soup: what its file held, in the file's order, and the values added to it.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <cmath>
 #include <memory>

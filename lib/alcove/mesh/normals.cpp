@@ -1,7 +1,7 @@
 #include "alcove/mesh/normals.h"
 
-#include "alcove/errors.h"
-#include "alcove/parallel.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

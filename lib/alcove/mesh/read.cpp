@@ -1,8 +1,8 @@
 #include "alcove/mesh/read.h"
 
-#include "alcove/errors.h"
-#include "alcove/mesh/formats.h"
-#include "alcove/messages.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/mesh/formats/formats.h"
 
 #include <algorithm>
 #include <cctype>

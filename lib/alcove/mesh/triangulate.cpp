@@ -1,7 +1,7 @@
 #include "alcove/mesh/triangulate.h"
 
-#include "alcove/huge_pages.h"
-#include "alcove/parallel.h"
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "alcove/mesh/write.h"
 
-#include "alcove/atomic_file.h"
-#include "alcove/errors.h"
-#include "alcove/mesh/formats.h"
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/errors.h"
+#include "alcove/mesh/formats/formats.h"
 
 #include <algorithm>
 #include <cctype>

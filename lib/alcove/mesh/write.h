@@ -4,8 +4,19 @@
 #include "alcove/mesh/mesh.h"
 
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace alcove {
+
+enum class ColorEncoding {
+    srgb, ///< bytes that decode to the value as sRGB (IEC 61966-2-1, 1999): what viewers and Blender assume
+    raw,  ///< 255 × value
+};
+
+/// One opaque grey a value of [0, 1], rounded to the nearest byte; values beyond are clamped.
+std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding = ColorEncoding::srgb);
 
 struct WriteOptions {
     std::vector<Color> colors;         ///< empty, or one a vertex: replaces the file's own colours

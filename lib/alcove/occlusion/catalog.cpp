@@ -1,17 +1,17 @@
 #include "alcove/occlusion/catalog.h"
 
-#include "alcove/errors.h"
-#include "alcove/occlusion/guided.h"
+#include "alcove/base/errors.h"
 #include "alcove/occlusion/methods/calibrated.h"
-#include "alcove/occlusion/methods/classic.h"
-#include "alcove/occlusion/methods/decay.h"
-#include "alcove/occlusion/methods/exponential.h"
-#include "alcove/occlusion/methods/fibonacci.h"
-#include "alcove/occlusion/methods/hemisphere.h"
-#include "alcove/occlusion/methods/hemisphere_random.h"
-#include "alcove/occlusion/methods/jittered.h"
-#include "alcove/occlusion/methods/multiplicative.h"
-#include "alcove/occlusion/methods/multiscale.h"
+#include "alcove/occlusion/methods/guided.h"
+#include "alcove/occlusion/methods/reference/classic.h"
+#include "alcove/occlusion/methods/reference/decay.h"
+#include "alcove/occlusion/methods/reference/exponential.h"
+#include "alcove/occlusion/methods/reference/fibonacci.h"
+#include "alcove/occlusion/methods/reference/hemisphere.h"
+#include "alcove/occlusion/methods/reference/hemisphere_random.h"
+#include "alcove/occlusion/methods/reference/jittered.h"
+#include "alcove/occlusion/methods/reference/multiplicative.h"
+#include "alcove/occlusion/methods/reference/multiscale.h"
 #include "alcove/occlusion/methods/thickness.h"
 #include "alcove/occlusion/methods/traced.h"
 
@@ -27,9 +27,9 @@ namespace alcove {
 namespace {
 
 template <class E>
-constexpr bool traces_rays() {
-    if constexpr (requires { E::traces_rays; })
-        return E::traces_rays;
+constexpr bool unbounded_radius() {
+    if constexpr (requires { E::unbounded_radius; })
+        return E::unbounded_radius;
     else
         return false;
 }
@@ -38,15 +38,15 @@ constexpr bool traces_rays() {
 template <class E>
 E estimator_of(const Settings& settings) {
     E estimator = with_settings<E>(settings);
-    if constexpr (!traces_rays<E>())
-        estimator.radius = std::min(estimator.radius, settings.furthest_probe);
+    if constexpr (!unbounded_radius<E>())
+        estimator.radius = std::min(estimator.radius, settings.max_probe_distance);
     return estimator;
 }
 
 template <class E>
 constexpr float document_radius_of() {
-    if constexpr (requires { E::document_radius; })
-        return E::document_radius;
+    if constexpr (requires { E::reference_radius; })
+        return E::reference_radius;
     else
         return 0.0f;
 }
@@ -90,7 +90,7 @@ auto owner_of(std::string_view parameter, std::span<const M* const> needed) {
 
 /// Those that are the method's own among the needed.
 Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
-    Settings own{.radius = all.radius, .furthest_probe = all.furthest_probe};
+    Settings own{.radius = all.radius, .max_probe_distance = all.max_probe_distance};
     for (const auto& setting : all.parameters)
         if (const auto owner = owner_of(setting.first, needed); owner != needed.end() && *owner == method)
             own.parameters.push_back(setting);

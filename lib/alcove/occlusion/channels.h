@@ -1,7 +1,7 @@
 /// What a bake can give: its channels, and where an estimator writes them.
 #pragma once
 
-#include "alcove/enum_set.h"
+#include "alcove/base/types.h"
 
 #include <array>
 #include <cstddef>

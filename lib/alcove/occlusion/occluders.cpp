@@ -1,8 +1,127 @@
 #include "alcove/occlusion/occluders.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
+#include "alcove/field/detail/trace.h"
+#include "alcove/occlusion/detail/triangle_pairs.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <vector>
 
 namespace alcove {
+
+struct RaySurface::Scene {
+    RTCDevice device = rtcNewDevice(nullptr);
+    RTCScene scene = rtcNewScene(device);
+    std::vector<TrianglePair> pairs; // its quadrilaterals
+
+    Scene() = default;
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+    ~Scene() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+    void check() const {
+        if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+            throw LimitError(fmt::format("no room for the rays' hierarchy over the triangles (error {}); "
+                                         "take a method without rays, or fewer triangles",
+                                         static_cast<int>(error)));
+    }
+};
+
+RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    for (const Triangle& triangle : triangles)
+        for (const std::uint32_t corner : triangle)
+            if (corner >= positions.size())
+                throw InputError(fmt::format("a triangle names position {} of {}", corner, positions.size()));
+    const auto scene = std::make_shared<Scene>();
+    const auto buffer = [&](RTCGeometry geometry, RTCBufferType type, RTCFormat format, const auto& items) {
+        // Its own, not shared: Embree reads past the last vertex.
+        void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size());
+        scene->check();
+        std::memcpy(to, items.data(), items.size_bytes());
+    };
+    // A quarter of the time of a better one, and rays are as fast.
+    constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
+    rtcSetSceneBuildQuality(scene->scene, quality);
+    // Embree splits its quadrilaterals as pairs are: the same triangles, in half as many primitives to sort.
+    scene->pairs = pair_triangles(positions, triangles);
+    const std::vector<TrianglePair>& pairs = scene->pairs;
+    if (!pairs.empty()) {
+        RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_QUAD);
+        rtcSetGeometryBuildQuality(geometry, quality);
+        rtcAttachGeometry(scene->scene, geometry);
+        rtcReleaseGeometry(geometry);
+        buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions);
+        buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, std::span<const TrianglePair>(pairs));
+        rtcCommitGeometry(geometry);
+    }
+    rtcCommitScene(scene->scene);
+    scene->check();
+    scene_ = scene;
+}
+
+namespace {
+
+RTCRay embree_ray(const RayBatch& rays, std::size_t i, float far) {
+    RTCRay ray;
+    ray.org_x = rays.x[i], ray.org_y = rays.y[i], ray.org_z = rays.z[i];
+    ray.dir_x = rays.dx[i], ray.dir_y = rays.dy[i], ray.dir_z = rays.dz[i];
+    ray.tnear = rays.travelled[i];
+    ray.tfar = far;
+    ray.time = 0.0f;
+    ray.mask = ~0u;
+    ray.id = static_cast<unsigned>(i);
+    ray.flags = 0;
+    return ray;
+}
+
+/// Of the pair's first triangle (0, 1, 3) below the diagonal, else of its second (2, 3, 1).
+SurfaceHit hit_of(const RTCHit& hit, const TrianglePair& pair) {
+    const Vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    if (hit.u + hit.v <= 1.0f)
+        return {{pair[0], pair[1], pair[3]}, {1.0f - hit.u - hit.v, hit.u, hit.v}, normal};
+    return {{pair[2], pair[3], pair[1]}, {hit.u + hit.v - 1.0f, 1.0f - hit.u, 1.0f - hit.v}, normal};
+}
+
+}
+
+void RaySurface::find_occluded(RayBatch& rays, float far) const {
+    std::array<RTCRay, RayBatch::capacity> stream;
+    for (std::size_t i = 0; i < rays.count; ++i)
+        stream[i] = embree_ray(rays, i, far);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    // Measured: a stream of rays that start together is a fifth faster than packets of 16 filled here, sorted
+    // by octant or not. Embree's robust mode takes a third longer and changes one ray of a million.
+    rtcOccluded1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count), sizeof(RTCRay));
+    for (std::size_t i = 0; i < rays.count; ++i)
+        rays.hit[i] = stream[i].tfar < 0.0f;
+}
+
+void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const {
+    std::array<RTCRayHit, RayBatch::capacity> stream;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        stream[i].ray = embree_ray(rays, i, far);
+        stream[i].hit.geomID = stream[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count),
+                   sizeof(RTCRayHit));
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        rays.hit[i] = stream[i].hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        if (!rays.hit[i])
+            continue;
+        rays.travelled[i] = stream[i].ray.tfar;
+        hits[i] = hit_of(stream[i].hit, scene_->pairs[stream[i].hit.primID]);
+    }
+}
 
 const AnyField& Occluders::field() const {
     if (!field_)

@@ -1,6 +1,6 @@
 #include "alcove/render/camera.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ Vec3d front_of(const Vec3d& up) {
     return size.z > size.x && size.z > size.y ? Vec3d(0.0, -1.0, 0.0) : Vec3d(0.0, 0.0, 1.0);
 }
 
-/// From the subject toward the eye, unit length.
+/// From the renderable toward the eye, unit length.
 Vec3d three_quarter_view(const Vec3d& up) {
     const Vec3d front = across(front_of(up), up);
     const Vec3d side = glm::cross(up, front);

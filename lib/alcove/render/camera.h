@@ -5,7 +5,7 @@
 /// along the ray.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -20,7 +20,7 @@ struct ImageSize {
 };
 inline constexpr int longest_side = 65536; ///< pixels
 
-/// Where to look from; what is not given is chosen so that the subject fills the image.
+/// Where to look from; what is not given is chosen so that the renderable fills the image.
 struct CameraOptions {
     std::optional<Vec3d> eye{};     ///< scene units
     std::optional<Vec3d> look_at{}; ///< scene units

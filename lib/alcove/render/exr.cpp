@@ -1,4 +1,4 @@
-#include "alcove/atomic_file.h"
+#include "alcove/base/detail/atomic_file.h"
 #include "alcove/render/image.h"
 
 #include <OpenEXR/ImfChannelList.h>

@@ -1,8 +1,8 @@
 /// A rendered picture and its files: OpenEXR with every pass, PNG of one.
 #pragma once
 
+#include "alcove/base/types.h"
 #include "alcove/render/passes.h"
-#include "alcove/types.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -22,7 +22,7 @@ struct Image {
     int width = 0;
     int height = 0;
     PassSet passes;
-    std::vector<float> alpha; ///< share of the pixel that the subject covers; there in any case
+    std::vector<float> alpha; ///< share of the pixel that the renderable covers; there in any case
     std::vector<Vec3> color;  ///< linear light, multiplied by alpha
     std::vector<float> ao, convexity, shadow; ///< multiplied by alpha
     std::vector<float> steps;                 ///< mean of the samples

@@ -1,7 +1,7 @@
 #include "alcove/render/image_method.h"
 
-#include "alcove/render/march_steps.h"
-#include "alcove/render/screen_space.h"
+#include "alcove/render/detail/march_steps.h"
+#include "alcove/render/detail/screen_space.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@ namespace {
 template <class M>
 constexpr ImageMethod method() {
     return {info_of<M>(), M::bytes_per_pixel,
-            [](const Subject& subject, const Camera& camera, const Settings& settings) {
-                return with_settings<M>(settings)(subject, camera);
+            [](const Renderable& renderable, const Camera& camera, const Settings& settings) {
+                return with_settings<M>(settings)(renderable, camera);
             }};
 }
 

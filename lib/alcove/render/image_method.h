@@ -3,7 +3,7 @@
 
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
-#include "alcove/render/subject.h"
+#include "alcove/render/renderable.h"
 
 #include <span>
 
@@ -14,7 +14,8 @@ struct ImageMethod : MethodInfo {
     double bytes_per_pixel; ///< of memory while it works
     /// Visibility of every pixel at its centre, row after row from the top left, in [0, 1]; anything where nothing is
     /// seen.
-    std::vector<float> (*occlusion)(const Subject& subject, const Camera& camera, const Settings& settings);
+    std::vector<float> (*occlusion)(const Renderable& renderable, const Camera& camera,
+                                    const Settings& settings);
 };
 
 std::span<const ImageMethod> image_methods();

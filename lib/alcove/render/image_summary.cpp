@@ -1,4 +1,4 @@
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 #include "alcove/render/image.h"
 
 #include <OpenEXR/ImfChannelList.h>

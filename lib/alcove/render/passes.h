@@ -1,7 +1,7 @@
 /// What a picture can show, and what it is called.
 #pragma once
 
-#include "alcove/enum_set.h"
+#include "alcove/base/types.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
-#include "alcove/atomic_file.h"
-#include "alcove/errors.h"
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/errors.h"
 #include "alcove/render/image.h"
 #include "alcove/render/shading.h"
 

@@ -1,8 +1,8 @@
 #include "alcove/render/renderer.h"
 
-#include "alcove/parallel.h"
-#include "alcove/render/hit_values.h"
-#include "alcove/render/snap.h"
+#include "alcove/base/parallel.h"
+#include "alcove/render/detail/hit_values.h"
+#include "alcove/render/detail/snap.h"
 
 #include <algorithm>
 #include <limits>
@@ -43,8 +43,8 @@ std::vector<float> spread(const std::vector<float>& pixels, int width, const Pix
 /// Averages the samples of the pixels of a region.
 class Resolver {
   public:
-    Resolver(const Subject& subject, const Vec3d& eye, const RenderOptions& options, Image& image)
-        : subject_(subject), eye_(eye), options_(options), image_(image) {}
+    Resolver(const Renderable& renderable, const Vec3d& eye, const RenderOptions& options, Image& image)
+        : renderable_(renderable), eye_(eye), options_(options), image_(image) {}
 
     void operator()(const PixelRegion& region, const Hits& hits, const HitValues& values) const {
         parallel_for(static_cast<std::size_t>(region.height), 4, [&](std::size_t begin, std::size_t end) {
@@ -75,7 +75,7 @@ class Resolver {
             if (!surfel.has_normal())
                 continue;
             const ObjectId object = hits.objects[s];
-            const Ground* ground = ground_of(subject_, object);
+            const Ground* ground = ground_of(renderable_, object);
             const float coverage = ground ? ground->coverage(surfel.position) : 1.0f;
             const Place place{.normal = surfel.normal,
                               .to_eye = glm::normalize(Vec3(eye_ - Vec3d(surfel.position))),
@@ -88,7 +88,7 @@ class Resolver {
             convexity += coverage * place.convexity;
             shadow += coverage * value(values.shadow, s, 1.0f);
             if (image_.passes.has(Pass::beauty))
-                color += coverage * shade(options_.lighting, material_of(subject_, object), place);
+                color += coverage * shade(options_.lighting, material_of(renderable_, object), place);
             if (hits.depths[s] < depth) {
                 depth = hits.depths[s];
                 nearest = s;
@@ -110,11 +110,11 @@ class Resolver {
         const Surfel& surfel = hits.surfels[nearest];
         set(Pass::depth, image_.depth, depth);
         set(Pass::normal, image_.normal, surfel.normal);
-        set(Pass::position, image_.position, Vec3(subject_.frame.to_scene(surfel.position)));
+        set(Pass::position, image_.position, Vec3(renderable_.frame.to_scene(surfel.position)));
         set(Pass::object, image_.object, static_cast<float>(hits.objects[nearest]));
     }
 
-    const Subject& subject_;
+    const Renderable& renderable_;
     const Vec3d& eye_; // unit space
     const RenderOptions& options_;
     Image& image_;
@@ -130,19 +130,19 @@ Lighting studio_lighting(const Camera& camera, const Vec3d& up) {
     return lighting;
 }
 
-Image render(const Subject& subject, const Camera& camera, const RenderOptions& options,
+Image render(const Renderable& renderable, const Camera& camera, const RenderOptions& options,
              const Progress& progress) {
     Image image(camera.size().width, camera.size().height, options.passes);
-    const CameraRays rays(subject, camera, options.samples);
-    const bool asks_rays = options.method && options.method->asks_rays;
-    const Occluders surroundings = asks_rays && subject.mesh
-                                       ? Occluders(subject.surroundings(), subject.mesh->surface)
-                                       : Occluders(subject.surroundings());
-    const Vec3d eye = (camera.eye() - subject.frame.center) / subject.frame.diagonal;
-    const Resolver resolve(subject, eye, options, image);
+    const CameraRays rays(renderable, camera, options.samples);
+    const bool needs_mesh = options.method && options.method->needs_mesh;
+    const Occluders surroundings = needs_mesh && renderable.mesh
+                                       ? Occluders(renderable.surroundings(), renderable.mesh->surface)
+                                       : Occluders(renderable.surroundings());
+    const Vec3d eye = (camera.eye() - renderable.frame.center) / renderable.frame.diagonal;
+    const Resolver resolve(renderable, eye, options, image);
     std::vector<float> ao_of_pixels;
     if (options.image_method && need_ao(options.passes))
-        ao_of_pixels = options.image_method->occlusion(subject, camera, options.settings);
+        ao_of_pixels = options.image_method->occlusion(renderable, camera, options.settings);
     std::size_t finished = 0;
     Hits hits;
     for (const PixelRegion& region : regions(camera.size(), options.samples)) {
@@ -150,18 +150,18 @@ Image render(const Subject& subject, const Camera& camera, const RenderOptions& 
                     options.passes.has(Pass::steps));
         parallel_for(region.tiles(CameraRays::tile_side), 32,
                      [&](std::size_t begin, std::size_t end) { rays.trace(region, begin, end, hits); });
-        if (subject.mesh) {
-            hits.painted.resize(subject.mesh->painted.empty() ? 0 : hits.surfels.size());
+        if (renderable.mesh) {
+            hits.painted.resize(renderable.mesh->painted.empty() ? 0 : hits.surfels.size());
             parallel_for(
                 hits.surfels.size(), 16 * RayBatch::capacity,
-                [&](std::size_t begin, std::size_t end) { snap(subject, camera, begin, end, hits); });
+                [&](std::size_t begin, std::size_t end) { snap(renderable, camera, begin, end, hits); });
         }
         const auto done = [&](double part) {
             if (progress)
                 progress((static_cast<double>(finished) + part * static_cast<double>(region.pixels())) /
                          static_cast<double>(image.pixels()));
         };
-        HitValues values = values_of(hits, subject, surroundings, eye, options, done);
+        HitValues values = values_of(hits, renderable, surroundings, eye, options, done);
         if (!ao_of_pixels.empty())
             values.ao = spread(ao_of_pixels, image.width, region, options.samples);
         resolve(region, hits, values);

@@ -8,9 +8,9 @@
 #include "alcove/render/camera.h"
 #include "alcove/render/image.h"
 #include "alcove/render/image_method.h"
+#include "alcove/render/renderable.h"
 #include "alcove/render/shading.h"
 #include "alcove/render/soft_shadow.h"
-#include "alcove/render/subject.h"
 
 namespace alcove {
 
@@ -44,7 +44,7 @@ int samples_at(float distance, int near_samples, const FewerSamples& fewer);
 
 /// Draws in regions of a million samples, so memory stays that of the image and about 100 MB. All values are
 /// finite. Cost: that of the rays (camera_rays.h), and the estimator's for each that meets the surface.
-Image render(const Subject& subject, const Camera& camera, const RenderOptions& options,
+Image render(const Renderable& renderable, const Camera& camera, const RenderOptions& options,
              const Progress& progress = {});
 
 }

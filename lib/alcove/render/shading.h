@@ -4,7 +4,7 @@
 /// light. n is the normal, u = n·up, v the direction toward the eye; all vectors are of unit length.
 #pragma once
 
-#include "alcove/types.h"
+#include "alcove/base/types.h"
 
 #include <glm/common.hpp>
 

@@ -1,6 +1,6 @@
 #include "alcove/render/soft_shadow.h"
 
-#include "alcove/parallel.h"
+#include "alcove/base/parallel.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 /// How much of the sun arrives, with soft edges from the field alone.
 #pragma once
 
-#include "alcove/field/any_field.h"
+#include "alcove/field/field.h"
 
 #include <span>
 #include <vector>

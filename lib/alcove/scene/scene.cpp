@@ -1,6 +1,6 @@
 #include "alcove/scene/scene.h"
 
-#include "alcove/errors.h"
+#include "alcove/base/errors.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,8 +1,8 @@
 /// What a picture is of, as plain data: objects, light, camera and size, before any file is read or grid made.
 #pragma once
 
+#include "alcove/base/length.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/length.h"
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
 #include "alcove/render/image_method.h"

@@ -1,10 +1,10 @@
 #include "alcove/scene/scene_file.h"
 
-#include "alcove/errors.h"
-#include "alcove/mesh/file_bytes.h"
-#include "alcove/messages.h"
-#include "alcove/scene/toml_depth.h"
-#include "alcove/scene/toml_table.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/mesh/formats/file_bytes.h"
+#include "alcove/scene/detail/toml_depth.h"
+#include "alcove/scene/detail/toml_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

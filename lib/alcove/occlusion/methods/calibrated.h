@@ -1,8 +1,8 @@
 /// A few probes along and around the normal, combined by a small network fitted to exact rays.
 #pragma once
 
+#include "alcove/occlusion/detail/parameter.h"
 #include "alcove/occlusion/methods/calibrated_table.h"
-#include "alcove/occlusion/parameter.h"
 
 namespace alcove {
 

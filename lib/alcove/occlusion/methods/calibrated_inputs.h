@@ -1,7 +1,7 @@
 /// Where the calibrated estimator probes, and what its network is told: shared with the program that fits it.
 #pragma once
 
-#include "alcove/occlusion/directions.h"
+#include "alcove/occlusion/detail/directions.h"
 #include "alcove/occlusion/estimator.h"
 
 #include <numeric>

@@ -17,7 +17,7 @@
 #pragma once
 
 #include "alcove/occlusion/methods/calibrated_inputs.h"
-#include "alcove/occlusion/network.h"
+#include "alcove/occlusion/methods/network.h"
 
 // clang-format off
 namespace alcove::calibrated_table {

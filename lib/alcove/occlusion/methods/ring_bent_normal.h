@@ -1,7 +1,7 @@
 /// A bent normal from four probes around the normal.
 #pragma once
 
-#include "alcove/occlusion/directions.h"
+#include "alcove/occlusion/detail/directions.h"
 #include "alcove/occlusion/estimator.h"
 
 namespace alcove {

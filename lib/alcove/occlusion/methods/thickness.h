@@ -34,7 +34,7 @@ struct Thickness {
     static constexpr std::string_view cost = "4-20";
     static constexpr std::string_view good = "within a voxel on plates and solids";
     static constexpr std::string_view bad = "of an open surface it is the way to whatever stands behind";
-    static constexpr bool traces_rays = true; ///< the radius may be infinite
+    static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::thickness;
 
     static constexpr std::array<Parameter<Thickness>, 0> parameters() { return {}; }

@@ -2,10 +2,10 @@
 /// do.
 #pragma once
 
-#include "alcove/field/trace.h"
-#include "alcove/occlusion/directions.h"
+#include "alcove/field/detail/trace.h"
+#include "alcove/occlusion/detail/directions.h"
+#include "alcove/occlusion/detail/parameter.h"
 #include "alcove/occlusion/estimator.h"
-#include "alcove/occlusion/parameter.h"
 
 #include <numeric>
 
@@ -74,7 +74,7 @@ struct Traced {
         "tends to exact rays as rays and voxels do; needs no mesh; gives bent normals";
     static constexpr std::string_view bad =
         "the dearest on grids; noise of 1/rays^0.75; blunt within a voxel";
-    static constexpr bool traces_rays = true; ///< the radius may be infinite
+    static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 
     static constexpr auto parameters() {

@@ -1,3 +1,0 @@
-include(CMakeFindDependencyMacro)
-find_dependency(glm)
-include(${CMAKE_CURRENT_LIST_DIR}/alcoveTargets.cmake)

@@ -1,0 +1,56 @@
+/// Spatial order: Morton codes, along which near cells are near, and the radix sort that orders by them.
+#pragma once
+
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/types.h"
+
+#include <array>
+#include <cstdint>
+
+namespace alcove {
+
+/// Of a coordinate: a code has three times as many.
+inline constexpr int morton_bits = 21;
+
+/// The place of a cell along the curve, its coordinates' bits in turn, x first. G. M. Morton, "A computer oriented
+/// geodetic data base and a new technique in file sequencing" (1966).
+/// \pre coordinates in [0, 2^21)
+inline std::uint64_t morton_code(const Vec3d& cell) {
+    const auto spread = [](double coordinate) { // two zero bits after each
+        auto x = static_cast<std::uint64_t>(coordinate);
+        x = (x | x << 32) & 0x1f00000000ffff;
+        x = (x | x << 16) & 0x1f0000ff0000ff;
+        x = (x | x << 8) & 0x100f00f00f00f00f;
+        x = (x | x << 4) & 0x10c30c30c30c30c3;
+        return (x | x << 2) & 0x1249249249249249;
+    };
+    return spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z);
+}
+
+/// The cell at a place along the curve: z, y and x.
+/// \pre ten bits a coordinate at most
+inline std::array<std::uint16_t, 3> morton_cell(std::uint32_t code) {
+    const auto gathered = [](std::uint32_t x) { // what spread() made
+        x &= 0x9249249;
+        x = (x | x >> 2) & 0x30c30c3;
+        x = (x | x >> 4) & 0x300f00f;
+        x = (x | x >> 8) & 0x30000ff;
+        return static_cast<std::uint16_t>((x | x >> 16) & 0x3ff);
+    };
+    return {gathered(code), gathered(code >> 1), gathered(code >> 2)};
+}
+
+template <class Key>
+struct Keyed {
+    Key key;
+    std::uint32_t value;
+};
+
+/// Stable, by the bits of the keys from `low` to below `high`, above which all are 0. The work is cut in blocks whose
+/// number depends on the count alone, and spread over the threads.
+template <class Key>
+void radix_sort(HugeVector<Keyed<Key>>& items, int low, int high);
+extern template void radix_sort(HugeVector<Keyed<std::uint32_t>>&, int, int);
+extern template void radix_sort(HugeVector<Keyed<std::uint64_t>>&, int, int);
+
+}

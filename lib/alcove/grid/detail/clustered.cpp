@@ -1,0 +1,125 @@
+#include "alcove/grid/detail/clustered.h"
+
+#include "alcove/base/parallel.h"
+#include "alcove/grid/detail/sign.h"
+#include "alcove/mesh/detail/edge_table.h"
+#include "alcove/mesh/detail/weld.h"
+
+#include <vector>
+
+namespace alcove {
+namespace {
+
+constexpr std::size_t grain = 1 << 14;
+
+/// Of each vertex, its cube.
+HugeVector<std::uint64_t> cells_of(std::span<const Vec3d> positions, double cell) {
+    HugeVector<std::uint64_t> cells(positions.size());
+    parallel_for(positions.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const Vec3d at = is_finite(positions[v]) ? positions[v] / cell : Vec3d(0.0);
+            cells[v] = static_cast<std::uint64_t>(at.x) << 42 | static_cast<std::uint64_t>(at.y) << 21 |
+                       static_cast<std::uint64_t>(at.z);
+        }
+    });
+    return cells;
+}
+
+/// Calls `visit(triangle, out)` for each, in blocks whose outs are put together in order.
+template <class Visit>
+void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, const Visit& visit) {
+    std::vector<std::vector<Triangle>> blocks((triangles.size() + grain - 1) / grain);
+    parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (const Triangle& t : triangles.subspan(begin, end - begin))
+            visit(t, blocks[begin / grain]);
+    });
+    std::size_t count = 0;
+    for (const std::vector<Triangle>& block : blocks)
+        count += block.size();
+    all.reserve(count);
+    for (const std::vector<Triangle>& block : blocks)
+        all.insert(all.end(), block.begin(), block.end());
+}
+
+/// Of the vertices in one cube that hang together there.
+DisjointSets clusters_of(const Surface& surface, double cell) {
+    const HugeVector<std::uint64_t> cells = cells_of(surface.positions, cell);
+    DisjointSets clusters(cells.size());
+    if (!balanced(surface.triangles)) { // else seams would open
+        const std::vector<std::uint32_t> first = weld(surface.positions);
+        for (std::uint32_t v = 0; v < first.size(); ++v)
+            clusters.join(v, first[v]);
+    }
+    for (const auto& [a, b, c] : surface.triangles) {
+        if (cells[a] == cells[b])
+            clusters.join(a, b);
+        if (cells[b] == cells[c])
+            clusters.join(b, c);
+        if (cells[c] == cells[a])
+            clusters.join(c, a);
+    }
+    return clusters;
+}
+
+}
+
+ClusteredSurface::ClusteredSurface(const Surface& surface, double cell) {
+    const std::vector<std::uint32_t> names = merge(surface, cell);
+    const auto renamed = [&](const Triangle& t) { return Triangle{names[t[0]], names[t[1]], names[t[2]]}; };
+    const auto has_sides = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
+    collect(surface.triangles, triangles_, [&](const Triangle& t, std::vector<Triangle>& kept) {
+        if (const Triangle now = renamed(t); has_sides(now))
+            kept.push_back(now);
+    });
+
+    // What no triangle is left of is known once all that are left are.
+    std::vector<std::uint8_t> bare(positions_.size(), 1); // new vertices of no triangle
+    for (const Triangle& t : triangles_)
+        for (const std::uint32_t v : t)
+            bare[v] = 0;
+    const double far2 = 12.0 * cell * cell; // two diagonals of a cube
+    const auto far = [&](std::uint32_t a, std::uint32_t b) {
+        const Vec3d way = positions_[a] - positions_[b];
+        return a != b && glm::dot(way, way) > far2;
+    };
+    HugeVector<Triangle> lost;
+    collect(surface.triangles, lost, [&](const Triangle& t, std::vector<Triangle>& kept) {
+        const Triangle now = renamed(t);
+        const auto& [a, b, c] = now;
+        if (!has_sides(now) && ((bare[a] | bare[b] | bare[c]) != 0 || far(a, b) || far(b, c)))
+            kept.push_back(t);
+    });
+    positions_.reserve(positions_.size() + 3 * lost.size());
+    triangles_.reserve(triangles_.size() + lost.size());
+    for (const Triangle& t : lost) {
+        const auto first = static_cast<std::uint32_t>(positions_.size());
+        for (const std::uint32_t v : t)
+            positions_.push_back(surface.positions[v]);
+        triangles_.push_back({first, first + 1, first + 2});
+    }
+}
+
+/// Returns the new vertex of each.
+std::vector<std::uint32_t> ClusteredSurface::merge(const Surface& surface, double cell) {
+    DisjointSets clusters = clusters_of(surface, cell);
+    std::vector<std::uint32_t> names = huge_vector<std::uint32_t>(surface.positions.size());
+    std::vector<double> counts;
+    positions_.reserve(names.size()); // room that is not touched costs nothing
+    for (std::uint32_t v = 0; v < names.size(); ++v) {
+        const std::uint32_t first = clusters.find(v);
+        if (first == v) {
+            names[v] = static_cast<std::uint32_t>(counts.size());
+            positions_.push_back(surface.positions[v]);
+            counts.push_back(1.0);
+        } else {
+            names[v] = names[first];
+            positions_[names[v]] += surface.positions[v];
+            counts[names[v]] += 1.0;
+        }
+    }
+    for (std::size_t v = 0; v < counts.size(); ++v)
+        positions_[v] /= counts[v];
+    return names;
+}
+
+}

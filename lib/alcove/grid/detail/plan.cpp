@@ -1,0 +1,159 @@
+#include "alcove/grid/detail/plan.h"
+
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace alcove {
+namespace {
+
+constexpr float least_outer_band = 3.0f, least_inner_band = 2.0f; // voxels
+
+// Measured peaks of resident memory: of grids and of the bricks of their fields, by voxels of the finest band; of what
+// finds nearest triangles, 130 for solids and 230 for sheets; of what leaves triangles out, 90 where their edges are looked
+// at too.
+constexpr double bytes_per_band_voxel = 60.0;
+constexpr double bytes_per_triangle = 240.0;
+constexpr double bytes_to_thin_a_triangle = 100.0;
+constexpr double bytes_per_voxel_of_length = 75.0; // of the pieces that long triangles are cut into
+// Triangles that a surface has for each cell of the grid that it is in, area / voxel², once it is clustered; as measured.
+// Thinning pays where that halves them.
+constexpr double thinned_triangles = 12.0;
+constexpr double worth_thinning = 2.0 * thinned_triangles;
+constexpr double finest_thinned = 1e-5; // the cells of finer ones are more than ClusteredSurface can number
+// All levels together against the finest: 1 + 1/4 + 1/16 + ...
+constexpr double levels_over_finest = 4.0 / 3.0;
+constexpr double largest_index = 1 << 20;
+constexpr double coarsest_voxel = 1.0; // none is larger than the diagonal
+
+/// Bytes = fixed + by_length / voxel + by_surface / voxel², where the surface is clustered and where it is not.
+struct Estimate {
+    double area, triangles;
+    bool may_cluster;
+    double least, by_surface, by_length;
+
+    Estimate(const SurfaceSize& size, std::size_t count, const GridOptions& options)
+        : area(size.area), triangles(static_cast<double>(count)), may_cluster(options.cluster),
+          by_length(bytes_per_voxel_of_length * size.length) {
+        const double band = 2.0 * std::max(options.outer_band, least_outer_band);
+        // A band around a point or a line still fills a ball or a tube: one block of leaves at least.
+        least = levels_over_finest * 4.0 * band * band * band * bytes_per_band_voxel;
+        by_surface = levels_over_finest * area * band * bytes_per_band_voxel;
+    }
+    bool clusters(double voxel) const {
+        return may_cluster && voxel > finest_thinned && triangles * voxel * voxel > worth_thinning * area;
+    }
+    double voxelized(double voxel) const {
+        return clusters(voxel) ? thinned_triangles * area / (voxel * voxel) : triangles;
+    }
+    double bytes(double voxel) const {
+        return least + by_surface / (voxel * voxel) + bytes_per_triangle * voxelized(voxel) +
+               (clusters(voxel) ? bytes_to_thin_a_triangle * triangles : by_length / voxel);
+    }
+    double finest(double limit) const {
+        if (!(bytes(coarsest_voxel) < limit))
+            return std::numeric_limits<double>::infinity();
+        const auto solved = [&](double fixed, double by_length_there, double by_area) {
+            const double left = limit - fixed, half = 0.5 * by_length_there / left;
+            return half + std::sqrt(half * half + by_area / left);
+        };
+        const double of_all = least + bytes_per_triangle * triangles;
+        double voxel = solved(of_all, by_length, by_surface);
+        // Below the voxel from which on surfaces are clustered, bytes are more.
+        if (!(of_all < limit) || clusters(voxel))
+            voxel = std::max(std::sqrt(worth_thinning * area / triangles),
+                             solved(least + bytes_to_thin_a_triangle * triangles, 0.0,
+                                    by_surface + bytes_per_triangle * thinned_triangles * area));
+        return std::max(voxel, 1.0 / largest_index);
+    }
+};
+
+std::string too_many(std::size_t triangles, double bytes, const GridOptions& options) {
+    return fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
+                       "fewer triangles, or bake by --method exact, which takes no grid",
+                       triangles, bytes / 1e9, options.memory_limit / 1e9);
+}
+
+}
+
+SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles) {
+    const Frame frame = frame_of(mesh.box());
+    const double scale = 1.0 / frame.diagonal;
+    constexpr std::size_t grain = 16384;
+    std::vector<SurfaceSize> sums((triangles.size() + grain - 1) / grain);
+    parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+        SurfaceSize sum;
+        for (const Triangle& t : triangles.subspan(begin, end - begin)) {
+            const Vec3d& a = mesh.positions[t[0]];
+            const Vec3d ab = scale * (mesh.positions[t[1]] - a), ac = scale * (mesh.positions[t[2]] - a);
+            const double longest2 =
+                std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(ac - ab, ac - ab)});
+            sum.area += 0.5 * glm::length(glm::cross(ab, ac));
+            sum.length += std::sqrt(longest2);
+        }
+        sums[begin / grain] = sum;
+    });
+    return std::accumulate(sums.begin(), sums.end(), SurfaceSize{},
+                           [](const SurfaceSize& a, const SurfaceSize& b) {
+                               return SurfaceSize{a.area + b.area, a.length + b.length};
+                           });
+}
+
+float chosen_voxel(float radius, float largest_voxel) {
+    return std::min(std::max(std::min(radius, 1.0f) / 8.0f, 1.0f / 1024.0f), largest_voxel);
+}
+
+double triangles_voxelized(double area, std::size_t triangles, double voxel, const GridOptions& options) {
+    return Estimate({.area = area}, triangles, options).voxelized(voxel);
+}
+
+double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOptions& options) {
+    return Estimate(size, triangles, options).finest(options.memory_limit);
+}
+
+LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
+    const Estimate estimate(surface_size(mesh, triangles), triangles.size(), options);
+    const double finest = estimate.finest(options.memory_limit);
+    if (!std::isfinite(finest))
+        throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));
+    if (options.voxel > 0.0f && options.voxel < finest)
+        throw LimitError(
+            fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
+                        "of {:.1f} GB: use --voxel {}% or more, or --voxel auto",
+                        100.0 * options.voxel, estimate.bytes(options.voxel) / 1e9,
+                        options.memory_limit / 1e9, std::ceil(1e4 * finest) / 100.0));
+    LevelPlan plan;
+    plan.outer_band = std::max(options.outer_band, least_outer_band);
+    plan.inner_band = std::max(options.inner_band, least_inner_band);
+    plan.voxel = options.voxel > 0.0f ? options.voxel
+                                      : std::max(chosen_voxel(options.radius, options.largest_voxel),
+                                                 std::nextafter(static_cast<float>(finest), 1.0f));
+    plan.cluster = estimate.clusters(plan.voxel);
+    plan.triangles = estimate.voxelized(plan.voxel);
+    plan.bytes = estimate.bytes(plan.voxel);
+
+    const float reach = std::min(options.radius, 1.0f);
+    float usable = (plan.outer_band - 1.0f) * plan.voxel;
+    while (usable < reach) {
+        usable *= 2.0f;
+        ++plan.levels;
+    }
+    return plan;
+}
+
+void check_clustered(const LevelPlan& plan, std::size_t triangles, const GridOptions& options) {
+    const double bytes =
+        plan.bytes + bytes_per_triangle * std::max(static_cast<double>(triangles) - plan.triangles, 0.0);
+    if (bytes > options.memory_limit)
+        throw LimitError(too_many(triangles, bytes, options));
+}
+
+}

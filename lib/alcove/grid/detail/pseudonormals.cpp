@@ -1,0 +1,117 @@
+#include "alcove/grid/detail/pseudonormals.h"
+
+#include "alcove/base/parallel.h"
+#include "alcove/mesh/detail/weld.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace alcove {
+namespace {
+
+constexpr int face_feature = 6;
+
+float corner_angle(const Vec3d& at, const Vec3d& b, const Vec3d& c) {
+    const Vec3d u = b - at, v = c - at;
+    return static_cast<float>(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
+}
+
+}
+
+Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles)
+    : positions_(positions), triangles_(triangles), joined_(weld(positions)),
+      face_normals_(triangles.size(), Vec3(0.0f)) {
+    parallel_for(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Triangle& t = triangles_[i];
+            const Vec3d cross =
+                glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
+            if (const double length = glm::length(cross); length > 0.0)
+                face_normals_[i] = Vec3(cross / length);
+        }
+    });
+    weight_normals();
+}
+
+void Pseudonormals::weight_normals() {
+    vertex_normals_.assign(positions_.size(), Vec3(0.0f));
+    struct HalfEdge {
+        std::uint64_t key;
+        std::uint32_t slot;
+    };
+    std::vector<HalfEdge> half_edges;
+    half_edges.reserve(triangles_.size() * 3);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        if (face_normals_[t] == Vec3(0.0f))
+            continue;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const Triangle& tri = triangles_[t];
+            const std::uint32_t at = tri[k], next = tri[(k + 1) % 3], last = tri[(k + 2) % 3];
+            vertex_normals_[joined_[at]] +=
+                corner_angle(positions_[at], positions_[next], positions_[last]) * face_normals_[t];
+            const auto [low, high] = std::minmax(joined_[at], joined_[next]);
+            const auto slot = static_cast<std::uint32_t>(3 * t + k);
+            half_edges.push_back({(std::uint64_t{low} << 32) | high, slot});
+        }
+    }
+    std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return a.key != b.key ? a.key < b.key : a.slot < b.slot;
+    });
+
+    edge_normals_.assign(3 * triangles_.size(), Vec3(0.0f));
+    std::vector<std::uint32_t> rim;
+    for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
+        Vec3 sum(0.0f);
+        for (end = begin; end < half_edges.size() && half_edges[end].key == half_edges[begin].key; ++end)
+            sum += face_normals_[half_edges[end].slot / 3];
+        if (end == begin + 1) {
+            sum = Vec3(0.0f);
+            rim.push_back(static_cast<std::uint32_t>(half_edges[begin].key >> 32));
+            rim.push_back(static_cast<std::uint32_t>(half_edges[begin].key));
+        }
+        for (std::size_t i = begin; i < end; ++i)
+            edge_normals_[half_edges[i].slot] = sum;
+    }
+    for (const std::uint32_t v : rim)
+        vertex_normals_[v] = Vec3(0.0f);
+}
+
+Pseudonormals::Nearest Pseudonormals::nearest(std::size_t triangle, const Vec3d& p) const {
+    const Triangle& t = triangles_[triangle];
+    const Vec3d &a = positions_[t[0]], &b = positions_[t[1]], &c = positions_[t[2]];
+    const Vec3d ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+    if (d1 <= 0.0 && d2 <= 0.0)
+        return {ap, 0};
+    const Vec3d bp = p - b;
+    const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+    if (d3 >= 0.0 && d4 <= d3)
+        return {bp, 1};
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0)
+        return {ap - d1 / (d1 - d3) * ab, 3};
+    const Vec3d cp = p - c;
+    const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+    if (d6 >= 0.0 && d5 <= d6)
+        return {cp, 2};
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0)
+        return {ap - d2 / (d2 - d6) * ac, 5};
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
+        return {bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 4};
+    const double scale = 1.0 / (va + vb + vc);
+    return {ap - vb * scale * ab - vc * scale * ac, face_feature};
+}
+
+double Pseudonormals::side(std::size_t triangle, const Vec3d& p) const {
+    const auto [offset, feature] = nearest(triangle, p);
+    const auto corner = static_cast<std::size_t>(feature) % 3;
+    const Vec3 normal = feature == face_feature ? face_normals_[triangle]
+                        : feature < 3           ? vertex_normals_[joined_[triangles_[triangle][corner]]]
+                                                : edge_normals_[3 * triangle + corner];
+    return glm::dot(offset, Vec3d(normal));
+}
+
+}

@@ -1,0 +1,155 @@
+#include "alcove/measure/measure.h"
+
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/errors.h"
+#include "alcove/field/detail/bricks.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/measure/detail/counting_field.h"
+#include "alcove/measure/detail/heat_map.h"
+#include "alcove/mesh/normals.h"
+#include "alcove/mesh/triangulate.h"
+#include "alcove/occlusion/detail/subset.h"
+#include "alcove/occlusion/methods/exact.h"
+
+#include <ctime>
+
+namespace alcove {
+namespace {
+
+/// Of the truth, so that a bake with exact rays does not share its noise.
+constexpr std::uint32_t truth_seed = 0x7ea7;
+constexpr std::size_t most_counted = 1024;
+
+/// CPU seconds of the process since it was made, and from then on its peak memory.
+class ProcessMeter {
+  public:
+    ProcessMeter() { forget_peak_resident_bytes(); }
+
+    double seconds() const { return now() - start_; }
+
+  private:
+    static double now() {
+        std::timespec time{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+    double start_ = now();
+};
+
+double map_calls_a_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, const MethodChoice& choice,
+                          float radius) {
+    const CountingField counting(grid.field);
+    const std::vector<Surfel> surfels = pick(mesh.surfels, evenly(mesh.order, most_counted));
+    bake_channels(surfels, Occluders(counting, mesh.rays), *choice.method, choice.settings(radius),
+                  Channel::ao);
+    return static_cast<double>(counting.calls()) / static_cast<double>(surfels.size());
+}
+
+/// The error of every vertex: that of the last one before it on the Morton curve that has a truth.
+std::vector<float> errors_of_all(const MeasuredMesh& mesh, const Truth& truth,
+                                 std::span<const float> values) {
+    std::vector<float> errors(mesh.surfels.size(), 0.0f);
+    std::size_t next = 0;
+    float error = 0.0f;
+    for (const std::uint32_t vertex : mesh.order) {
+        if (next < truth.vertices.size() && truth.vertices[next] == vertex) {
+            error = values[next] - truth.ao[next];
+            ++next;
+        }
+        errors[vertex] = error;
+    }
+    return errors;
+}
+
+}
+
+RaySurface MeasuredMesh::make_rays() {
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (const Vec3d& p : mesh.positions)
+        positions.push_back(frame.to_unit(p));
+    const ProcessMeter meter;
+    RaySurface surface(positions, triangles);
+    tree_seconds = meter.seconds();
+    return surface;
+}
+
+MeasuredMesh::MeasuredMesh(std::string n, Mesh m)
+    : name(std::move(n)), mesh(std::move(m)), triangles(triangulate(mesh).triangles),
+      frame(frame_of(mesh.box())), surfels(make_surfels(mesh, triangles, frame)),
+      order(spatial_order(surfels)), rays(make_rays()) {
+    if (order.empty())
+        throw InputError(name + ": no vertex has a normal to measure occlusion at");
+}
+
+Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options,
+                 const Progress& progress) {
+    Truth truth{radius, evenly(mesh.order, options.most), {}};
+    truth.ao = bake(pick(mesh.surfels, truth.vertices), mesh.rays,
+                    Exact{.radius = radius, .rays = options.rays, .seed = truth_seed}, progress);
+    return truth;
+}
+
+MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, const Progress& progress) {
+    VoxelizeOptions options;
+    options.grid.radius = radius;
+    options.grid.voxel = voxel;
+    options.grid.cluster = true; // as bakes do
+    options.progress = progress;
+    const ProcessMeter meter;
+    const GridStack stack = voxelize(mesh.mesh, mesh.triangles, options);
+    LevelStack field(stack);
+    std::size_t active = 0;
+    for (const LevelSet& level : stack.levels)
+        active += level.active_voxels;
+    return {std::move(field), voxel, active, stack.bytes(), meter.seconds(), peak_resident_bytes()};
+}
+
+std::string Measurement::label() const {
+    return samples > 0 ? method + ":" + std::to_string(samples) : method;
+}
+
+Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const MeasuredGrid* grid,
+                    const MethodChoice& choice, Pictures pictures, const Progress& progress) {
+    Measurement m;
+    m.mesh = mesh.name;
+    m.method = choice.method->name;
+    m.samples = choice.samples;
+    m.vertices = mesh.mesh.vertex_count();
+    m.triangles = mesh.triangles.size();
+    m.radius = truth.radius;
+    m.rays = choice.rays();
+    if (choice.method->needs_mesh)
+        m.tree_seconds = mesh.tree_seconds;
+    if (!choice.method->needs_grid)
+        grid = nullptr;
+
+    const Occluders occluders = grid ? Occluders(grid->field, mesh.rays) : Occluders(mesh.rays);
+    const ProcessMeter meter;
+    const ChannelValues baked = bake_channels(mesh.surfels, occluders, *choice.method,
+                                              choice.settings(truth.radius), Channel::ao, progress);
+    m.occlusion_seconds = meter.seconds();
+    m.peak_rss_bytes = peak_resident_bytes();
+
+    if (grid) {
+        m.voxel = grid->field.resolution();
+        m.asked_voxel = grid->asked_voxel;
+        m.levels = grid->field.levels().size();
+        m.active_voxels = grid->active_voxels;
+        m.grid_bytes = grid->bytes;
+        m.grid_seconds = grid->seconds;
+        m.peak_rss_bytes = std::max(m.peak_rss_bytes, grid->peak_rss_bytes);
+        m.map_calls = map_calls_a_surfel(mesh, *grid, choice, truth.radius);
+    }
+    std::vector<float> values;
+    values.reserve(truth.vertices.size());
+    for (const std::uint32_t vertex : truth.vertices)
+        values.push_back(baked[Channel::ao][vertex]);
+    m.error = compare(values, truth.ao);
+    if (pictures == Pictures::painted)
+        m.picture = heat_map(mesh.mesh, mesh.triangles, errors_of_all(mesh, truth, values));
+    return m;
+}
+
+}

@@ -1,0 +1,28 @@
+/// An OBJ file as it was, and where its vertices stand in it.
+#pragma once
+
+#include "alcove/mesh/detail/source.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace alcove {
+
+class ObjDocument : public SourceDocument {
+  public:
+    std::string text;
+    std::vector<std::size_t> vertex_lines; ///< byte offset of the 'v' of each vertex, in file order
+    bool has_comment(std::string_view beginning) const override {
+        return text.find("\n# " + std::string(beginning)) != std::string::npos ||
+               text.starts_with("# " + std::string(beginning));
+    }
+
+    std::size_t weights = 0; ///< vertices whose fourth coordinate is not 1
+
+    /// Lines a Mesh has no place for: what they are ("'usemtl' lines") and how many, none of them 0.
+    std::vector<std::pair<std::string, std::size_t>> other_lines;
+};
+
+}

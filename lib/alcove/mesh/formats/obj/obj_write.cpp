@@ -1,0 +1,178 @@
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
+#include "alcove/mesh/formats/text_scanner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <span>
+
+namespace alcove {
+namespace {
+
+using Buffer = fmt::memory_buffer;
+
+void append(Buffer& to, std::string_view text) {
+    to.append(text.data(), text.data() + text.size());
+}
+
+/// The shortest decimal that reads back as the same float, where the value is one, else as the same double.
+void append_number(Buffer& to, double value) {
+    const auto single = static_cast<float>(value);
+    if (static_cast<double>(single) == value)
+        fmt::format_to(std::back_inserter(to), " {}", single);
+    else
+        fmt::format_to(std::back_inserter(to), " {}", value);
+}
+
+/// " 0.5020" for 128: four decimals tell all 256 apart.
+class ColorWriter {
+  public:
+    ColorWriter() {
+        for (std::size_t i = 0; i < decimals_.size(); ++i)
+            decimals_[i] = fmt::format(" {:.4f}", static_cast<double>(i) / 255.0);
+    }
+    void append_to(Buffer& to, const Color& color) const {
+        for (std::size_t c = 0; c < 3; ++c)
+            append(to, decimals_[color[c]]);
+    }
+
+  private:
+    std::array<std::string, 256> decimals_;
+};
+
+/// The text with what follows x y z on each 'v' line replaced by the colour.
+Buffer recolored(const ObjDocument& document, const FileBytes& text, const std::vector<Color>& colors) {
+    const ColorWriter writer;
+    Buffer to;
+    to.reserve(text.size() + 24 * colors.size());
+    const char* from = text.begin();
+    for (std::size_t v = 0; v < colors.size(); ++v) {
+        TextScanner line(text, text.begin() + document.vertex_lines[v] + 1, obj_syntax);
+        for (int c = 0; c < 3; ++c)
+            line.word("a coordinate");
+        append(to, {from, static_cast<std::size_t>(line.at() - from)});
+        writer.append_to(to, colors[v]);
+        const char* rest = line.at();
+        for (; !line.at_line_end(); rest = line.at())
+            line.word("a number");
+        from = rest;
+    }
+    append(to, {from, static_cast<std::size_t>(text.end() - from)});
+    return to;
+}
+
+Buffer composed(const Mesh& mesh, const WriteOptions& options) {
+    Buffer to;
+    for (std::string comment : options.comments) {
+        std::replace_if(
+            comment.begin(), comment.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+        append(to, "# " + comment + "\n");
+    }
+    const ColorWriter writer;
+    const std::vector<Color>& colors = options.colors.empty() ? mesh.vertex_colors : options.colors;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        append(to, "v");
+        for (int c = 0; c < 3; ++c)
+            append_number(to, mesh.positions[v][c]);
+        if (!colors.empty())
+            writer.append_to(to, colors[v]);
+        append(to, "\n");
+    }
+    const bool has_uvs = !mesh.vertex_uvs.empty() || !mesh.corner_uvs.empty();
+    for (const Vec2& uv : mesh.vertex_uvs.empty() ? mesh.corner_uvs : mesh.vertex_uvs)
+        fmt::format_to(std::back_inserter(to), "vt {} {}\n", uv.x, uv.y);
+    for (const Vec3& n : mesh.normals)
+        fmt::format_to(std::back_inserter(to), "vn {} {} {}\n", n.x, n.y, n.z);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        append(to, "f");
+        for (std::size_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+            const fmt::format_int vertex(std::size_t(mesh.corners[c]) + 1);
+            append(to, " ");
+            append(to, {vertex.data(), vertex.size()});
+            if (!has_uvs && mesh.normals.empty())
+                continue;
+            append(to, "/");
+            if (!mesh.corner_uvs.empty())
+                append(to, fmt::format_int(c + 1).str());
+            else if (has_uvs)
+                append(to, {vertex.data(), vertex.size()});
+            if (mesh.normals.empty())
+                continue;
+            append(to, "/");
+            append(to, {vertex.data(), vertex.size()});
+        }
+        append(to, "\n");
+    }
+    return to;
+}
+
+/// The properties and elements of a PLY input that an OBJ has no place for.
+void list_lost(const PlyDocument& document, std::vector<std::string>& lost) {
+    constexpr std::array<std::string_view, 18> of_vertices{
+        "x", "y",         "z",         "nx", "ny", "nz",  "s",     "t",    "u",
+        "v", "texture_u", "texture_v", "s0", "t0", "red", "green", "blue", "alpha"};
+    // The colours of faces are told by the caller, whatever file they come from.
+    constexpr std::array<std::string_view, 7> of_faces{"vertex_indices", "vertex_index", "texcoord", "red",
+                                                       "green",          "blue",         "alpha"};
+    for (const PlyElement& element : document.elements) {
+        std::span<const std::string_view> stored;
+        if (element.name == "vertex")
+            stored = of_vertices;
+        else if (element.name == "face")
+            stored = of_faces;
+        else
+            lost.push_back("not stored in OBJ: " + grouped(element.count) + " rows of element " +
+                           in_quotes(element.name));
+        for (const PlyProperty& property : element.properties)
+            if (!stored.empty() && std::find(stored.begin(), stored.end(), property.name) == stored.end())
+                lost.push_back("not stored in OBJ: property " + in_quotes(property.name) + " of element " +
+                               in_quotes(element.name));
+    }
+    if (!document.comments.empty())
+        lost.push_back("not stored in OBJ: " +
+                       counted(document.comments.size(), "comment line", "comment lines"));
+}
+
+}
+
+std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file,
+                                   const WriteOptions& options) {
+    std::vector<std::string> lost;
+    for (const Attribute& attribute : mesh.attributes)
+        lost.push_back("not stored in OBJ: attribute " + in_quotes(attribute.name));
+    const std::vector<Color>& colors = options.colors.empty() ? mesh.vertex_colors : options.colors;
+    if (std::any_of(colors.begin(), colors.end(), [](const Color& c) { return c[3] != 255; }))
+        lost.push_back("not stored in OBJ: the alpha of the vertex colours");
+
+    AtomicFile output(file);
+    const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get());
+    if (text != nullptr && text->vertex_lines.size() == mesh.vertex_count()) {
+        if (options.colors.empty()) {
+            output.write(text->text);
+        } else {
+            const Buffer bytes = recolored(*text, FileBytes(file, text->text), options.colors);
+            output.write({bytes.data(), bytes.size()});
+            if (text->weights > 0)
+                lost.push_back("not stored in OBJ: the weights of " +
+                               counted(text->weights, "vertex", "vertices") +
+                               ", where the colours stand now");
+        }
+    } else {
+        if (const auto* document = dynamic_cast<const PlyDocument*>(mesh.source.get()))
+            list_lost(*document, lost);
+        if (!mesh.face_colors.empty())
+            lost.push_back("not stored in OBJ: the colours of the faces");
+        const Buffer bytes = composed(mesh, options);
+        output.write({bytes.data(), bytes.size()});
+    }
+    output.commit();
+    return lost;
+}
+
+}

@@ -1,0 +1,339 @@
+// Format: Geomview manual, "OFF Files": [ST][C][N][4][n]OFF [BINARY].
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/formats/byte_reader.h"
+#include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/text_scanner.h"
+#include "alcove/mesh/normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace alcove {
+namespace {
+
+/// Tokens counted on the rest of a line: more than any colour and texture coordinate have.
+constexpr std::size_t most_tokens = 8;
+
+/// What the header keyword announces for every vertex.
+struct Layout {
+    bool uvs = false, colors = false, normals = false, weights = false, dimension = false;
+};
+
+std::optional<Layout> layout_named(std::string_view keyword) {
+    Layout layout;
+    const auto take = [&](std::string_view prefix) {
+        const bool found = keyword.starts_with(prefix);
+        keyword.remove_prefix(found ? prefix.size() : 0);
+        return found;
+    };
+    layout.uvs = take("ST");
+    layout.colors = take("C");
+    layout.normals = take("N");
+    layout.weights = take("4");
+    layout.dimension = take("n");
+    return keyword == "OFF" ? std::optional(layout) : std::nullopt;
+}
+
+/// Colours as the file gives them; whether they run to 1 or to 255 shows only when all are known.
+class ColorList {
+  public:
+    void add(std::size_t index, const std::array<double, 4>& rgba, std::size_t components, bool fraction) {
+        indices_.push_back(index);
+        values_.push_back(rgba);
+        if (components < 4)
+            values_.back()[3] = -1.0;
+        fraction_ |= fraction;
+        for (std::size_t c = 0; c < components; ++c)
+            largest_ = std::max(largest_, rgba[c]);
+    }
+    std::size_t size() const { return indices_.size(); }
+
+    /// One colour for each of `count`; the format's default, two thirds grey, where none was given.
+    std::vector<Color> resolved(std::size_t count) const {
+        std::vector<Color> colors(count, Color{170, 170, 170, 255});
+        const double scale = fraction_ || largest_ <= 1.0 ? 255.0 : 1.0;
+        const auto byte = [scale](double value) { return color_byte(value * scale); };
+        for (std::size_t i = 0; i < indices_.size(); ++i) {
+            const auto& [r, g, b, a] = values_[i];
+            colors[indices_[i]] = {byte(r), byte(g), byte(b), a < 0.0 ? std::uint8_t(255) : byte(a)};
+        }
+        return colors;
+    }
+
+  private:
+    std::vector<std::size_t> indices_;
+    std::vector<std::array<double, 4>> values_;
+    bool fraction_ = false;
+    double largest_ = 0.0;
+};
+
+class OffReader {
+  public:
+    explicit OffReader(const FileBytes& file) : file_(file), text_(file, file.begin(), off_syntax) {}
+
+    Mesh read() {
+        read_keyword();
+        if (binary_)
+            read_binary();
+        else
+            read_text();
+        if (vertex_colors_.size() > 0)
+            mesh_.vertex_colors = vertex_colors_.resolved(vertices_);
+        if (face_colors_.size() > 0) {
+            mesh_.face_colors = face_colors_.resolved(faces_);
+            if (face_colors_.size() < faces_)
+                warn(faces_ - face_colors_.size(), "face has", "faces have",
+                     "no colour of their own beside others that do; written as grey");
+        }
+        if (map_indices_ > 0)
+            warn(map_indices_, "colour is", "colours are",
+                 "an index into a colour map that is not in the file; left out");
+        if (unannounced_ > 0)
+            warn(unannounced_, "vertex line holds", "vertex lines hold",
+                 "more values than the header keyword announces (COFF, NOFF, ...); left out");
+        return std::move(mesh_);
+    }
+
+  private:
+    void warn(std::size_t count, const char* singular, const char* plural, const char* rest) {
+        mesh_.warnings.push_back(counted(count, singular, plural) + " " + rest);
+    }
+
+    void read_keyword() {
+        if (text_.at_end())
+            text_.fail_early("the number of vertices");
+        const std::string_view keyword = text_.peek();
+        if (const auto layout = layout_named(keyword)) {
+            layout_ = *layout;
+            text_.word("OFF");
+            if (!text_.at_line_end() && text_.peek() == "BINARY") {
+                text_.word("BINARY");
+                binary_ = true;
+            }
+        } else if (keyword.empty() || !(keyword[0] >= '0' && keyword[0] <= '9')) {
+            text_.fail(in_quotes(keyword) +
+                       " is no OFF keyword; a file begins with [ST][C][N][4][n]OFF or its counts");
+        }
+    }
+
+    void check_counts(std::int64_t vertices, std::int64_t faces, std::size_t vertex_bytes,
+                      std::size_t face_bytes, std::size_t left, const auto& fail) {
+        if (vertices < 0 || faces < 0)
+            fail("a count is negative; export the file again");
+        vertices_ = static_cast<std::size_t>(vertices);
+        faces_ = static_cast<std::size_t>(faces);
+        if (vertices_ > (left + 1) / vertex_bytes || faces_ > (left + 1) / face_bytes)
+            fail(counted(vertices_, "vertex", "vertices") + " and " + counted(faces_, "face", "faces") +
+                 " are announced but only " + grouped(left) + " bytes follow; copy or export the file again");
+        mesh_.positions.reserve(vertices_);
+        mesh_.face_begin.reserve(faces_ + 1);
+    }
+
+    void read_text() {
+        if (layout_.dimension && text_.integer("the dimension") != 3)
+            text_.fail("vertices of a dimension other than 3 cannot be read; export a plain OFF file");
+        text_.at_end();
+        const char* const counts = text_.at();
+        const std::int64_t vertices = text_.integer("the number of vertices");
+        const std::int64_t faces = text_.integer("the number of faces");
+        if (!text_.at_line_end() || next_line_is_one_number())
+            text_.integer("the number of edges");
+        // The shortest vertex is "0 0 0\n", the shortest face "0\n"; the last line end may be missing.
+        check_counts(vertices, faces, 6, 2, text_.bytes_left(),
+                     [&](const std::string& message) { file_.fail_at_line(counts, message); });
+        for (std::size_t v = 0; v < vertices_; ++v)
+            read_text_vertex(v);
+        if (faces_ == 0)
+            fail_without_faces(file_, counts, vertices_);
+        for (std::size_t f = 0; f < faces_; ++f)
+            read_text_face(f);
+        if (!text_.at_end())
+            mesh_.warnings.push_back(grouped(text_.bytes_left()) +
+                                     " bytes behind the last face were not read");
+    }
+
+    /// Whether an edge count stands on the line below the two others.
+    bool next_line_is_one_number() {
+        TextScanner ahead(text_);
+        return !ahead.at_end() && ahead.tokens_on_line(2) == 1;
+    }
+
+    void read_text_vertex(std::size_t v) {
+        Vec3d p;
+        for (int c = 0; c < 3; ++c)
+            p[c] = text_.number("a coordinate");
+        if (layout_.weights)
+            p /= text_.number("the fourth coordinate");
+        mesh_.positions.push_back(p);
+        if (layout_.normals) {
+            Vec3d n;
+            for (int c = 0; c < 3; ++c)
+                n[c] = text_.number("a normal");
+            mesh_.normals.push_back(unit_or_zero(n));
+        }
+        if (layout_.colors) {
+            const std::size_t left = text_.tokens_on_line(most_tokens);
+            const std::size_t behind = layout_.uvs ? 2 : 0;
+            if (left < behind + 1)
+                text_.fail("the vertex has no colour; one of 3 or 4 numbers is expected on its line");
+            read_text_color(left - behind, v, vertex_colors_);
+        }
+        if (layout_.uvs) {
+            const float s = text_.number<float>("a texture coordinate");
+            const float t = text_.number<float>("a texture coordinate");
+            mesh_.vertex_uvs.push_back({s, t});
+        }
+        if (text_.at_line_end())
+            return;
+        // Vertices may share a line; 3 or 4 more values on the line of each are unannounced colours or
+        // normals.
+        const std::size_t left = text_.tokens_on_line(most_tokens);
+        if ((left == 3 || left == 4) && (v == 0 ? every_vertex_line_has(left) : unannounced_ == v)) {
+            ++unannounced_;
+            text_.next_line();
+        }
+    }
+
+    /// Whether the line of each vertex holds `more` values than announced; the first line is read up to
+    /// there.
+    bool every_vertex_line_has(std::size_t more) const {
+        const std::size_t announced = 3u + layout_.weights + 3u * layout_.normals;
+        TextScanner ahead(text_);
+        for (std::size_t v = 1; v < vertices_; ++v) {
+            ahead.next_line();
+            if (ahead.at_end() || ahead.tokens_on_line(announced + most_tokens) != announced + more)
+                return false;
+        }
+        return true;
+    }
+
+    void read_text_face(std::size_t f) {
+        const std::int64_t corners = text_.integer("the number of corners of a face");
+        if (corners < 0)
+            text_.fail("the number of corners of a face is negative; export the file again");
+        if (static_cast<std::size_t>(corners) > (text_.bytes_left() + 1) / 2)
+            text_.fail("a face of " + grouped(static_cast<std::size_t>(corners)) +
+                       " corners does not fit the rest of the file; copy or export it again");
+        for (std::int64_t c = 0; c < corners; ++c) {
+            const std::int64_t index = text_.integer("a vertex index");
+            if (index < 0 || static_cast<std::size_t>(index) >= vertices_)
+                text_.fail("vertex index " + std::to_string(index) + " is out of range: there are " +
+                           grouped(vertices_) + " vertices, counted from 0; export the file again");
+            mesh_.corners.push_back(static_cast<std::uint32_t>(index));
+        }
+        close_face(mesh_);
+        if (!text_.at_line_end())
+            read_text_color(text_.tokens_on_line(most_tokens), f, face_colors_);
+    }
+
+    void read_text_color(std::size_t components, std::size_t index, ColorList& colors) {
+        if (components != 1 && components != 3 && components != 4)
+            text_.fail("a colour of " + grouped(components) + " numbers; 3 or 4 are expected");
+        std::array<double, 4> rgba{};
+        bool fraction = false;
+        for (std::size_t c = 0; c < components; ++c) {
+            fraction |= text_.peek().find_first_of(".eE") != std::string_view::npos;
+            rgba[c] = text_.number("a colour");
+        }
+        if (components == 1)
+            ++map_indices_;
+        else
+            colors.add(index, rgba, components, fraction);
+    }
+
+    void read_binary() {
+        text_.at_line_end();
+        text_.next_line();
+        ByteReader bytes(file_, text_.at(), std::endian::big);
+        if (layout_.dimension && bytes.read<std::int32_t>("the dimension") != 3)
+            bytes.fail("vertices of a dimension other than 3 cannot be read; export a plain OFF file");
+        const auto vertices = bytes.read<std::int32_t>("the number of vertices");
+        const auto faces = bytes.read<std::int32_t>("the number of faces");
+        bytes.read<std::int32_t>("the number of edges");
+        const std::size_t vertex_bytes = sizeof(float) * (3u + layout_.weights + 3u * layout_.normals +
+                                                          4u * layout_.colors + 2u * layout_.uvs);
+        check_counts(vertices, faces, vertex_bytes, 8, bytes.bytes_left(),
+                     [&](const std::string& message) { bytes.fail(message); });
+        for (std::size_t v = 0; v < vertices_; ++v)
+            read_binary_vertex(bytes, v);
+        for (std::size_t f = 0; f < faces_; ++f)
+            read_binary_face(bytes, f);
+        if (bytes.bytes_left() > 0)
+            mesh_.warnings.push_back(grouped(bytes.bytes_left()) +
+                                     " bytes behind the last face were not read");
+    }
+
+    void read_binary_vertex(ByteReader& bytes, std::size_t v) {
+        Vec3d p;
+        for (int c = 0; c < 3; ++c)
+            p[c] = bytes.read<float>("a coordinate");
+        if (layout_.weights)
+            p /= bytes.read<float>("the fourth coordinate");
+        mesh_.positions.push_back(p);
+        if (layout_.normals) {
+            Vec3d n;
+            for (int c = 0; c < 3; ++c)
+                n[c] = bytes.read<float>("a normal");
+            mesh_.normals.push_back(unit_or_zero(n));
+        }
+        if (layout_.colors)
+            read_binary_color(bytes, 4, v, vertex_colors_);
+        if (layout_.uvs) {
+            const float s = bytes.read<float>("a texture coordinate");
+            const float t = bytes.read<float>("a texture coordinate");
+            mesh_.vertex_uvs.push_back({s, t});
+        }
+    }
+
+    void read_binary_face(ByteReader& bytes, std::size_t f) {
+        const auto corners = bytes.read<std::int32_t>("the number of corners of a face");
+        if (corners < 0 || static_cast<std::size_t>(corners) > bytes.bytes_left() / 4)
+            bytes.fail("a face of " + std::to_string(corners) +
+                       " corners does not fit the rest of the file; copy or export it again");
+        for (std::int32_t c = 0; c < corners; ++c) {
+            const auto index = bytes.read<std::int32_t>("a vertex index");
+            if (index < 0 || static_cast<std::size_t>(index) >= vertices_)
+                bytes.fail("vertex index " + std::to_string(index) + " is out of range: there are " +
+                           grouped(vertices_) + " vertices, counted from 0; export the file again");
+            mesh_.corners.push_back(static_cast<std::uint32_t>(index));
+        }
+        close_face(mesh_);
+        const auto components = bytes.read<std::int32_t>("the number of colour components of a face");
+        if (components != 0)
+            read_binary_color(bytes, components, f, face_colors_);
+    }
+
+    void read_binary_color(ByteReader& bytes, std::int32_t components, std::size_t index, ColorList& colors) {
+        if (components != 1 && components != 3 && components != 4)
+            bytes.fail("a colour of " + std::to_string(components) + " numbers; 3 or 4 are expected");
+        std::array<double, 4> rgba{};
+        for (std::int32_t c = 0; c < components; ++c)
+            rgba[static_cast<std::size_t>(c)] = bytes.read<float>("a colour");
+        if (components == 1)
+            ++map_indices_;
+        else
+            colors.add(index, rgba, static_cast<std::size_t>(components), true);
+    }
+
+    const FileBytes& file_;
+    TextScanner text_;
+    Mesh mesh_;
+    Layout layout_;
+    bool binary_ = false;
+    std::size_t vertices_ = 0, faces_ = 0, map_indices_ = 0, unannounced_ = 0;
+    ColorList vertex_colors_, face_colors_;
+};
+
+}
+
+bool begins_as_off(const FileBytes& file) {
+    TextScanner text(file, file.begin(), off_syntax);
+    return !text.at_end() && layout_named(text.peek());
+}
+
+Mesh read_off(const FileBytes& file) {
+    return OffReader(file).read();
+}
+
+}

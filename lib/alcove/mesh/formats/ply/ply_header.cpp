@@ -1,0 +1,165 @@
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/formats/ply/ply_parse.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace alcove {
+namespace {
+
+constexpr std::size_t longest_line = 65536;
+constexpr std::size_t most_names =
+    4096; // elements, and properties of one element: looking for doubles is quadratic
+
+std::string_view without_blanks_around(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\v\f";
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos)
+        return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+    std::vector<std::string_view> words;
+    for (line = without_blanks_around(line); !line.empty() && words.size() < 8;) {
+        const std::size_t length = std::min(line.find_first_of(" \t\v\f"), line.size());
+        words.push_back(line.substr(0, length));
+        line = without_blanks_around(line.substr(length));
+    }
+    return words;
+}
+
+class HeaderParser {
+  public:
+    explicit HeaderParser(const FileBytes& file) : file_(file), at_(file.begin()) {
+        const std::string_view start = file.view().substr(0, longest_line);
+        const std::size_t first_end = start.find_first_of("\r\n");
+        // A lone CR ends lines only where the first line says so: binary rows may begin with LF.
+        if (first_end != std::string_view::npos && start[first_end] == '\r' &&
+            !(first_end + 1 < start.size() && start[first_end + 1] == '\n'))
+            line_end_ = '\r';
+    }
+
+    PlyHeader parse() {
+        next_line();
+        if (without_blanks_around(line_) != "ply")
+            fail("a PLY file begins with a line 'ply'");
+        for (next_line(); without_blanks_around(line_) != "end_header"; next_line())
+            parse_line();
+        if (!has_format_)
+            fail("the header has no format line; add 'format ascii 1.0' or the binary one that fits");
+        header_.body = at_;
+        return std::move(header_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const { file_.fail_at_line(line_.data(), message); }
+
+    void next_line() {
+        const char* const limit =
+            std::min(file_.end(), at_ + std::min<std::ptrdiff_t>(longest_line, file_.end() - at_));
+        const char* const end = std::find(at_, limit, line_end_);
+        line_ = {at_, static_cast<std::size_t>(end - at_)};
+        if (end == limit && end != file_.end())
+            fail("a header line is longer than " + grouped(longest_line) + " bytes; is end_header missing?");
+        const bool last = without_blanks_around(line_) == "end_header";
+        if (end == file_.end() && !last)
+            fail("the file ends within the header: end_header is missing; copy or export it again");
+        at_ = end == file_.end() ? end : end + 1;
+    }
+
+    void parse_line() {
+        const std::vector<std::string_view> words = words_of(line_);
+        if (words.empty())
+            return;
+        if (words[0] == "comment" || words[0] == "obj_info")
+            header_.document.comments.emplace_back(line_.substr(0, line_.find_last_not_of('\r') + 1));
+        else if (words[0] == "format")
+            parse_format(words);
+        else if (words[0] == "element")
+            parse_element(words);
+        else if (words[0] == "property")
+            parse_property(words);
+        else
+            fail(in_quotes(words[0]) +
+                 " is no keyword of a PLY header; is the header damaged or end_header missing?");
+    }
+
+    void parse_format(const std::vector<std::string_view>& words) {
+        if (has_format_)
+            fail("a second format line; remove one");
+        has_format_ = true;
+        if (words.size() != 3 || words[2] != "1.0")
+            fail("the format line must read 'format NAME 1.0'");
+        if (words[1] == "ascii")
+            header_.format = PlyFormat::ascii;
+        else if (words[1] == "binary_little_endian")
+            header_.format = PlyFormat::little_endian;
+        else if (words[1] == "binary_big_endian")
+            header_.format = PlyFormat::big_endian;
+        else
+            fail(in_quotes(words[1]) +
+                 " is no PLY format; ascii, binary_little_endian and binary_big_endian are");
+    }
+
+    void parse_element(const std::vector<std::string_view>& words) {
+        if (words.size() != 3)
+            fail("an element line must read 'element NAME COUNT'");
+        std::size_t count = 0;
+        const char* const last = words[2].data() + words[2].size();
+        const auto [end, error] = std::from_chars(words[2].data(), last, count);
+        if (error != std::errc() || end != last)
+            fail(in_quotes(words[2]) + " is not a number of elements; export the file again");
+        std::vector<PlyElement>& elements = header_.document.elements;
+        if (header_.document.find(words[1]) != nullptr)
+            fail("a second element " + in_quotes(words[1]) + "; remove one");
+        if (elements.size() == most_names)
+            fail("more than " + grouped(most_names) + " elements; export fewer");
+        elements.push_back({std::string(words[1]), count, {}, {}});
+        header_.element_line.push_back(line_.data());
+    }
+
+    void parse_property(const std::vector<std::string_view>& words) {
+        if (header_.document.elements.empty())
+            fail("a property in front of the first element; is an element line missing?");
+        const bool is_list = words.size() > 1 && words[1] == "list";
+        if (words.size() != (is_list ? 5u : 3u))
+            fail("a property line must read 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+        PlyElement& element = header_.document.elements.back();
+        PlyProperty property{std::string(words.back()), type_named(words[words.size() - 2]), {}};
+        if (is_list) {
+            property.count_type = type_named(words[2]);
+            if (!is_integral(*property.count_type))
+                fail("a list cannot be counted in " + in_quotes(words[2]) + "; export the file again");
+        }
+        if (element.find(property.name) != nullptr)
+            fail("a second property " + in_quotes(property.name) + " of element " + in_quotes(element.name) +
+                 "; remove one");
+        if (element.properties.size() == most_names)
+            fail("more than " + grouped(most_names) + " properties in an element; export fewer");
+        element.properties.push_back(std::move(property));
+    }
+
+    PlyType type_named(std::string_view name) const {
+        const auto type = ply_type_named(name);
+        if (!type)
+            fail(in_quotes(name) +
+                 " is no PLY type; char, uchar, short, ushort, int, uint, float and double are");
+        return *type;
+    }
+
+    const FileBytes& file_;
+    const char* at_;
+    char line_end_ = '\n';
+    std::string_view line_;
+    bool has_format_ = false;
+    PlyHeader header_;
+};
+
+}
+
+PlyHeader parse_ply_header(const FileBytes& file) {
+    return HeaderParser(file).parse();
+}
+
+}

@@ -1,0 +1,151 @@
+/// Numbers and words out of a text held in memory, fast and strict: every failure names the line.
+#pragma once
+
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/formats/file_bytes.h"
+
+#include <fast_float/fast_float.h>
+
+#include <cstdint>
+#include <string_view>
+
+namespace alcove {
+
+struct TextSyntax {
+    char comment = '\0';       ///< it and the rest of its line count as a line end
+    bool continuation = false; ///< a backslash at the end of a line joins the next one to it
+};
+inline constexpr TextSyntax off_syntax{'#', false};
+inline constexpr TextSyntax obj_syntax{'#', true};
+
+/// Walks a text from token to token. Tokens are separated by blanks and line ends (LF, CRLF, CR).
+class TextScanner {
+  public:
+    TextScanner(const FileBytes& file, const char* begin, TextSyntax syntax = {})
+        : file_(file), at_(begin), end_(file.end()), syntax_(syntax) {}
+
+    const char* at() const { return at_; }
+    void move_to(const char* place) { at_ = place; }
+    bool at_token_end() const { return at_ == end_ || is_delimiter(at_); }
+    std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+
+    /// Skips blanks; true at a line end, a comment or the end of the file.
+    bool at_line_end() {
+        while (at_ < end_ && (is_blank(*at_) || is_continuation(at_)))
+            at_ += is_blank(*at_) ? 1 : continuation_length(at_);
+        return at_ == end_ || is_line_end(*at_) || is_comment(*at_);
+    }
+    /// Moves behind the end of this line.
+    void next_line() {
+        bool in_comment = false;
+        for (; at_ < end_ && !is_line_end(*at_); ++at_) {
+            in_comment |= is_comment(*at_);
+            if (!in_comment && is_continuation(at_))
+                at_ += continuation_length(at_) - 1;
+        }
+        const bool carriage_return = at_ < end_ && *at_ == '\r';
+        if (at_ < end_)
+            ++at_;
+        if (carriage_return && at_ < end_ && *at_ == '\n')
+            ++at_;
+    }
+    /// Skips blanks, line ends and comments; true at the end of the file.
+    bool at_end() {
+        while (at_line_end()) {
+            if (at_ == end_)
+                return true;
+            next_line();
+        }
+        return false;
+    }
+    /// The token here, without moving; empty at a line end.
+    std::string_view peek() {
+        if (at_line_end())
+            return {};
+        const char* last = at_;
+        while (last < end_ && !is_delimiter(last))
+            ++last;
+        return {at_, static_cast<std::size_t>(last - at_)};
+    }
+    /// The tokens from here to the end of the line, at most `limit`, without moving.
+    std::size_t tokens_on_line(std::size_t limit) {
+        TextScanner ahead(*this);
+        std::size_t count = 0;
+        for (; count < limit && !ahead.at_line_end(); ++count)
+            ahead.at_ += ahead.peek().size();
+        return count;
+    }
+
+    /// The next token, on this line or a later one. \throw InputError at the end of the file.
+    std::string_view word(const char* expected) {
+        if (at_end())
+            fail_early(expected);
+        const std::string_view token = peek();
+        at_ += token.size();
+        return token;
+    }
+    /// The next token as a number; 'nan' and 'inf' are numbers. \throw InputError if it is none.
+    template <class Real = double>
+    Real number(const char* expected) {
+        if (at_end())
+            fail_early(expected);
+        Real value{};
+        const char* first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
+        const auto [last, error] = fast_float::from_chars(first, end_, value);
+        if (error == std::errc::invalid_argument || (last < end_ && !is_delimiter(last)))
+            fail_token("a number", expected);
+        at_ = last;
+        return value;
+    }
+    /// The next token as a whole number. \throw InputError if it is none or has more than 18 digits.
+    std::int64_t integer(const char* expected) {
+        if (at_end())
+            fail_early(expected);
+        const char* digit = at_;
+        const bool negative = *digit == '-';
+        if (negative || *digit == '+')
+            ++digit;
+        const char* const first = digit;
+        std::int64_t value = 0;
+        for (; digit < end_ && *digit >= '0' && *digit <= '9'; ++digit)
+            if (digit - first < longest_integer)
+                value = value * 10 + (*digit - '0');
+        if (digit == first || digit - first > longest_integer || (digit < end_ && !is_delimiter(digit)))
+            fail_token("a whole number", expected);
+        at_ = digit;
+        return negative ? -value : value;
+    }
+
+    [[noreturn]] void fail(std::string_view message) const { file_.fail_at_line(at_, message); }
+    [[noreturn]] void fail_early(const char* expected) const {
+        file_.fail_at_line(end_, std::string("the file ends early: ") + expected +
+                                     " is missing; copy or export it again");
+    }
+
+  private:
+    static constexpr std::ptrdiff_t longest_integer = 18;
+
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+    bool is_comment(char c) const { return syntax_.comment != '\0' && c == syntax_.comment; }
+    bool is_continuation(const char* at) const {
+        return *at == '\\' && syntax_.continuation && at + 1 < end_ && is_line_end(at[1]);
+    }
+    static std::ptrdiff_t continuation_length(const char* at) {
+        return at[1] == '\r' && at[2] == '\n' ? 3 : 2;
+    }
+    bool is_delimiter(const char* at) const {
+        return is_blank(*at) || is_line_end(*at) || is_comment(*at) || is_continuation(at);
+    }
+    [[noreturn]] void fail_token(const char* kind, const char* expected) {
+        const std::string_view token = peek();
+        fail(in_quotes(token) + " is not " + kind + "; " + expected + " is expected here");
+    }
+
+    const FileBytes& file_;
+    const char* at_;
+    const char* end_;
+    TextSyntax syntax_;
+};
+
+}

@@ -1,0 +1,196 @@
+#include "alcove/occlusion/detail/joint_bilateral.h"
+
+#include "alcove/base/detail/memory.h"
+#include "alcove/field/detail/trace.h"
+#include "alcove/occlusion/detail/ridge_regression.h"
+#include "alcove/occlusion/methods/calibrated.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+static_assert(Curve::probes == probe_count<TenProbes>);
+
+/// The length of the mean of cosine-weighted directions where all are open: ∫ cos²θ dω / π.
+constexpr float straight = 2.0f / 3.0f;
+
+/// The variance of one surfel's rays by how open it is; never that of a certain answer, because `open` is a
+/// prediction.
+float variance_of(float open) {
+    const float p = std::clamp(open, 0.05f, 0.95f);
+    return p * (1.0f - p);
+}
+
+/// How much a surfel's own rays count beside those of its neighbours: none where their noise explains how much
+/// these differ. Twice the noise, because the differences it is held against vary themselves.
+float trust_in_own(float variance, float noise) {
+    return variance > 2.0f * noise ? 1.0f - 2.0f * noise / variance : 0.0f;
+}
+
+}
+
+JointBilateral::JointBilateral(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                               const Guided& guided, bool with_bent)
+    : guided_(guided), lattice_(guided.rays), with_bent_(with_bent),
+      spacings_(20.0f * std::pow(static_cast<float>(guided.rays), -0.6f)),
+      noise_(std::pow(static_cast<float>(guided.rays), -1.4f)),
+      noise_of_bent_(0.5f * std::pow(static_cast<float>(guided.rays), -1.8f)), place_(order.size()) {
+    reserve_huge(surfels_, order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Surfel& surfel = surfels[order[i]];
+        if (surfels_.empty() || surfel.position != surfels_.back().position ||
+            surfel.normal != surfels_.back().normal)
+            surfels_.push_back(surfel);
+        place_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
+    }
+    padded_ = std::max(surfels_.size(), Curve::window);
+    const std::size_t used = with_bent ? columns : bent;
+    reserve_huge(values_, (used + features) * padded_);
+    values_.resize((used + features) * padded_);
+    for (std::size_t column = 0; column < used; ++column)
+        columns_[column] = values_.data() + column * padded_;
+    for (std::size_t feature = 0; feature < features; ++feature)
+        features_[feature] = values_.data() + (used + feature) * padded_;
+    for (std::size_t i = 0; i < surfels_.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            columns_[position + axis][i] = surfels_[i].position[static_cast<int>(axis)];
+            columns_[normal + axis][i] = surfels_[i].normal[static_cast<int>(axis)];
+        }
+}
+
+void JointBilateral::probe(const AnyField& field, std::size_t begin, std::size_t end) {
+    // A probe further from the mesh than its diagonal tells nothing of it.
+    const float radius = std::min(guided_.radius, 1.0f);
+    SurfelBatch batch;
+    CalibratedInputs<TenProbes> inputs{};
+    for (std::size_t at = begin; at < end; at += batch.count) {
+        batch.count = 0;
+        for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
+            batch.push_back(surfels_[i]);
+        calibrated_inputs<TenProbes>(field, batch, radius, inputs);
+        const SurfelBatch::Values calibrated = calibrated_table::ten_probes(inputs);
+        for (std::size_t k = 0; k < Curve::probes; ++k)
+            std::copy_n(inputs[k].begin(), batch.count, features_[k] + at);
+        std::copy_n(calibrated.begin(), batch.count, features_[Curve::probes] + at);
+    }
+}
+
+void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::size_t end) {
+    RayBatch batch;
+    std::array<std::uint32_t, RayBatch::capacity> owner;
+    const float part = 1.0f / static_cast<float>(guided_.rays);
+    const auto flush = [&] {
+        surface.find_occluded(batch, guided_.radius);
+        for (std::size_t r = 0; r < batch.count; ++r)
+            if (!batch.hit[r]) {
+                columns_[ao][owner[r]] += part;
+                if (!with_bent_)
+                    continue;
+                columns_[bent][owner[r]] += part * batch.dx[r];
+                columns_[bent + 1][owner[r]] += part * batch.dy[r];
+                columns_[bent + 2][owner[r]] += part * batch.dz[r];
+            }
+        batch.count = 0;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+        const Basis basis(surfels_[i].normal);
+        const Vec3 origin = surfels_[i].position + Exact::offset * basis.normal;
+        const CosineLattice::Shift shift(recurrence_point(i, guided_.seed));
+        for (int r = 0; r < guided_.rays; ++r) {
+            owner[batch.count] = static_cast<std::uint32_t>(i);
+            batch.push_back({origin, basis.to_world(lattice_.direction(r, shift))}, 0.0f);
+            if (batch.count == RayBatch::capacity)
+                flush();
+        }
+    }
+    flush();
+    // Open surroundings bend nothing: what is shared is the deviation from that.
+    for (std::size_t i = begin; with_bent_ && i < end; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            columns_[bent + axis][i] -= straight * columns_[ao][i] * columns_[normal + axis][i];
+}
+
+void JointBilateral::fit_model() {
+    const RidgeRegression model = fit_quadratic_model(features_, {columns_[ao], size()}, size());
+    model.predict(features_, 0, size(), columns_[predicted]);
+    double sum = 0.0, sum2 = 0.0, unexplained = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+        const float open = std::clamp(columns_[predicted][i], 0.0f, 1.0f), left = columns_[ao][i] - open;
+        columns_[predicted][i] = open;
+        columns_[residual][i] = left;
+        sum += open, sum2 += double(open) * open;
+        unexplained += double(left) * left - 1.3 * noise_ * variance_of(open);
+    }
+    // On scans the model leaves 0.2 to 0.4 of the deviation of the truth, which its own is near to; more where
+    // the rays say so beyond their noise, of which 1.3 is the most.
+    const auto count = static_cast<double>(size());
+    const double variance = sum2 / count - (sum / count) * (sum / count);
+    model_variance_ = static_cast<float>(std::max({0.16 * variance, unexplained / count, 4e-4}));
+}
+
+JointBilateral::Answer JointBilateral::share(std::size_t i) const {
+    const std::size_t first = std::min(i - std::min(i, Curve::window / 2), padded_ - Curve::window);
+    std::array<float, Curve::window> weights;
+    weigh(curve(), i, first, reach(i), weights.data());
+    const float model = columns_[predicted][i];
+    const Moments m = moments(weights.data(), columns_[predicted] + first, model, columns_[residual] + first);
+    const float noise = noise_ * variance_of(model);
+    const float mean = m.v / (m.w + noise / model_variance_);
+    const float variance = m.vv / m.w - 2.0f * mean * m.v / m.w + mean * mean;
+    const float shared = model + mean, own = trust_in_own(variance, noise);
+    Answer answer{std::clamp(shared + own * (columns_[ao][i] - shared), 0.0f, 1.0f), Vec3(0.0f)};
+    if (with_bent_)
+        answer.bent = share_bent(i, first, weights.data()) + straight * answer.ao * surfels_[i].normal;
+    return answer;
+}
+
+/// A component is fitted as a + b·(predicted_i − predicted) in the neighbourhood; what the fit cannot tell, the
+/// surfel's own rays do.
+Vec3 JointBilateral::share_bent(std::size_t i, std::size_t first, const float* weights) const {
+    float left = 0.0f;
+    Vec3 fitted(0.0f), own(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const float* values = columns_[bent + static_cast<std::size_t>(axis)];
+        const Moments m =
+            moments(weights, columns_[predicted] + first, columns_[predicted][i], values + first);
+        const float g = m.g / m.w, v = m.v / m.w;
+        // The predictions of a flat neighbourhood say nothing: what they vary by rounding is no slope.
+        const float spread = m.gg / m.w - g * g + 1e-4f, covariance = m.vg / m.w - g * v;
+        const float slope = covariance / spread;
+        fitted[axis] = v - slope * g;
+        own[axis] = values[i];
+        left += std::max(m.vv / m.w - v * v - slope * covariance, 0.0f);
+    }
+    return fitted + trust_in_own(left, noise_of_bent_) * (own - fitted);
+}
+
+Curve JointBilateral::curve() const {
+    Curve curve{};
+    curve.x = columns_[position], curve.y = columns_[position + 1], curve.z = columns_[position + 2];
+    curve.nx = columns_[normal], curve.ny = columns_[normal + 1], curve.nz = columns_[normal + 2];
+    for (std::size_t k = 0; k < Curve::probes; ++k)
+        curve.probe[k] = features_[k];
+    return curve;
+}
+
+float JointBilateral::reach(std::size_t i) const {
+    std::array<float, 8> distances;
+    std::size_t count = 0;
+    for (std::size_t k = i - std::min<std::size_t>(i, 4); k < std::min(i + 5, surfels_.size()); ++k)
+        if (k != i)
+            distances[count++] = glm::length(surfels_[k].position - surfels_[i].position);
+    if (count == 0)
+        return 1.0f;
+    // Without branches, which nothing predicts here.
+    for (std::size_t least = 0; least <= count / 2; ++least)
+        for (std::size_t k = count - 1; k > least; --k) {
+            const float a = distances[k - 1], b = distances[k];
+            distances[k - 1] = std::min(a, b);
+            distances[k] = std::max(a, b);
+        }
+    return std::max(spacings_ * distances[count / 2], 1e-6f);
+}
+
+}

@@ -1,0 +1,74 @@
+#include "alcove/occlusion/detail/ridge_regression.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+
+namespace alcove {
+namespace {
+
+constexpr std::size_t run = 64, least_runs = 64, most_runs = 256;
+constexpr double ridge = 1e-3; // of each term's mean square, which is of the order of 1
+
+}
+
+void RidgeRegression::predict(std::span<const float* const> features, std::size_t begin, std::size_t end,
+                              float* values) const {
+    for (std::size_t at = begin; at < end; at += run) {
+        const std::size_t lanes = std::min(run, end - at);
+        std::fill_n(values + at, lanes, weights[0]);
+        std::size_t term = 1;
+        for (std::size_t a = 0; a < features.size(); ++a) {
+            float slope[run];
+            std::fill_n(slope, run, weights[term++]);
+            for (std::size_t b = 0; b <= a; ++b, ++term)
+                for (std::size_t k = 0; k < lanes; ++k)
+                    slope[k] += weights[term] * features[b][at + k];
+            for (std::size_t k = 0; k < lanes; ++k)
+                values[at + k] += slope[k] * features[a][at + k];
+        }
+    }
+}
+
+RidgeRegression fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
+                                    std::size_t count) {
+    const std::size_t runs = (count + run - 1) / run,
+                      used = std::min(runs, std::clamp(runs / 4, least_runs, most_runs));
+    const auto terms = static_cast<Eigen::Index>((features.size() + 1) * (features.size() + 2) / 2);
+    using Array = Eigen::Array<float, run, 1>;
+    Eigen::MatrixXf block = Eigen::MatrixXf::Zero(run, terms);
+    Eigen::MatrixXf products(terms, terms);
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+    double total = 0.0;
+    for (std::size_t u = 0; u < used; ++u) {
+        const std::size_t begin = u * runs / used * run, lanes = std::min(run, count - begin);
+        const auto column = [&](const float* from) {
+            Array array = Array::Zero();
+            std::copy_n(from + begin, lanes, array.data());
+            return array;
+        };
+        block.col(0).setZero();
+        block.col(0).head(static_cast<Eigen::Index>(lanes)).setOnes();
+        Eigen::Index term = 1;
+        for (std::size_t a = 0; a < features.size(); ++a) {
+            const Array feature = column(features[a]);
+            block.col(term++) = feature;
+            for (std::size_t b = 0; b <= a; ++b)
+                block.col(term++) = feature * column(features[b]);
+        }
+        products.setZero();
+        products.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
+        normal += products.cast<double>();
+        right += (block.transpose() * column(values.data()).matrix()).cast<double>();
+        total += static_cast<double>(lanes);
+    }
+    normal.diagonal().tail(terms - 1).array() += ridge * total;
+    const Eigen::VectorXd solution = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+    RidgeRegression model;
+    for (const double weight : solution)
+        model.weights.push_back(static_cast<float>(weight));
+    return model;
+}
+
+}

@@ -1,0 +1,23 @@
+#include "alcove/occlusion/detail/subset.h"
+
+#include <algorithm>
+
+namespace alcove {
+
+std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t most) {
+    const std::size_t count = std::min(items.size(), most);
+    std::vector<std::uint32_t> chosen(count);
+    for (std::size_t i = 0; i < count; ++i)
+        chosen[i] = items[i * items.size() / count];
+    return chosen;
+}
+
+std::vector<Surfel> pick(std::span<const Surfel> surfels, std::span<const std::uint32_t> indices) {
+    std::vector<Surfel> picked;
+    picked.reserve(indices.size());
+    for (const std::uint32_t i : indices)
+        picked.push_back(surfels[i]);
+    return picked;
+}
+
+}

@@ -1,0 +1,28 @@
+/// Directions of the documents, the same for every surfel, brought to the side of its normal.
+#pragma once
+
+#include "alcove/occlusion/detail/directions.h"
+#include "alcove/occlusion/estimator.h"
+
+namespace alcove {
+
+/// In world axes, as the documents have it, a direction below the surface is reversed; around the normal it is
+/// mirrored into the upper half and turns with the surface.
+class HemisphereFrame {
+  public:
+    HemisphereFrame(const SurfelBatch& surfels, bool surfel_frame)
+        : surfels_(surfels), surfel_frame_(surfel_frame) {}
+
+    Vec3 flipped(std::size_t surfel, const Vec3& direction) const {
+        const Vec3 normal = surfels_.normal(surfel);
+        if (surfel_frame_)
+            return Basis(normal).to_world({direction.x, direction.y, std::fabs(direction.z)});
+        return glm::dot(direction, normal) < 0.0f ? -direction : direction;
+    }
+
+  private:
+    const SurfelBatch& surfels_;
+    bool surfel_frame_;
+};
+
+}

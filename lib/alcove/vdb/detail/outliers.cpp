@@ -1,0 +1,193 @@
+#include "alcove/vdb/detail/outliers.h"
+
+#include "alcove/base/parallel.h"
+#include "alcove/grid/detail/vdb_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace alcove {
+namespace {
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+constexpr int edge = 8;
+static_assert(Leaf::DIM == edge);
+constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // of voxels along x, y and z
+
+/// Quickly, as most pieces of most grids are.
+bool is_smooth(const float* values, float step, float farthest, float deepest) {
+    int steps = 0;
+    const auto count = [&](int v, int stride) {
+        steps += int(std::fabs(std::max(values[v], deepest) - std::max(values[v + stride], deepest)) > step);
+    };
+    for (int v = 0; v < int(Leaf::SIZE); ++v)
+        steps += int(std::fabs(values[v]) > farthest);
+    for (int v = 0; v < int(Leaf::SIZE) - strides[0]; ++v)
+        count(v, strides[0]);
+    for (int x = 0; x < edge; ++x)
+        for (int v = x * strides[0]; v < (x + 1) * strides[0] - strides[1]; ++v)
+            count(v, strides[1]);
+    for (int row = 0; row < edge * edge; ++row)
+        for (int v = row * edge; v < row * edge + edge - 1; ++v)
+            count(v, strides[2]);
+    return steps == 0;
+}
+
+/// The deepest value within the band: those outside it are of the background. Bands are not always as wide inward as
+/// outward.
+float deepest_of(const FloatGrid& grid, const std::vector<const Leaf*>& leaves) {
+    std::vector<std::int32_t> depths(leaves.size());
+    const float background = grid.background();
+    parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t l = begin; l < end; ++l) {
+            const float* const values = leaves[l]->buffer().data();
+            std::int32_t deepest = 0; // as bits, which are ordered as floats above 0 are
+            for (int v = 0; v < int(Leaf::SIZE); ++v) {
+                const float inward = -values[v];
+                const std::int32_t within = inward < background ? std::bit_cast<std::int32_t>(inward) : 0;
+                deepest = std::max(deepest, within);
+            }
+            depths[l] = deepest;
+        }
+    });
+    return depths.empty() ? 0.0f : -std::bit_cast<float>(*std::max_element(depths.begin(), depths.end()));
+}
+
+class OutlierFinder {
+  public:
+    OutlierFinder(const FloatGrid& grid, float deepest, double voxel)
+        : reader_(grid.getConstAccessor()), small_step_(static_cast<float>(1.15 * voxel)),
+          large_step_(static_cast<float>(1.5 * voxel)), near_(static_cast<float>(2.0 * voxel)),
+          farthest_(1.001f * grid.background()), deepest_(deepest) {
+        openvdb::CoordBBox leaves;
+        grid.tree().evalLeafBoundingBox(leaves);
+        widest_ = static_cast<float>(voxel * leaves.extents().asVec3d().length());
+    }
+
+    Outliers look_at(const Leaf& leaf) {
+        Outliers outliers;
+        if (is_smooth_within_others(leaf))
+            return outliers;
+        for (auto value = leaf.cbeginValueOn(); value; ++value)
+            if (is_outlier(leaf, *value, value.getCoord())) {
+                ++outliers.count;
+                outliers.far += std::fabs(*value) > widest_;
+            }
+        return outliers;
+    }
+
+  private:
+    /// Active or not: no small step to neighbours, and nothing beyond the background.
+    bool is_smooth_within_others(const Leaf& leaf) {
+        if (!is_smooth(leaf.buffer().data(), small_step_, farthest_, deepest_))
+            return false;
+        int steps = 0;
+        for (const int side : {-1, 1})
+            steps += steps_across<0>(leaf, side) + steps_across<1>(leaf, side) + steps_across<2>(leaf, side);
+        return steps == 0;
+    }
+    template <int axis>
+    int steps_across(const Leaf& leaf, int side) {
+        Coord beyond = leaf.origin();
+        beyond[axis] += side * edge;
+        const Leaf* const other = reader_.probeConstLeaf(beyond);
+        const float tile = other ? 0.0f : reader_.getValue(beyond);
+        constexpr int last = (edge - 1) * strides[axis];
+        const float* const own = leaf.buffer().data() + (side > 0 ? last : 0);
+        const float* const others = other ? other->buffer().data() + (side > 0 ? 0 : last) : nullptr;
+        constexpr int row = strides[axis == 2 ? 1 : 2], column = strides[axis == 0 ? 1 : 0];
+        int steps = 0;
+        for (int a = 0; a < edge; ++a)
+            for (int b = 0; b < edge; ++b) {
+                const int v = a * column + b * row;
+                steps += is_step(own[v], others ? others[v] : tile);
+            }
+        return steps;
+    }
+    int is_step(float a, float b) const {
+        return int(std::fabs(std::max(a, deepest_) - std::max(b, deepest_)) > small_step_);
+    }
+    bool is_outlier(const Leaf& leaf, float value, const Coord& at) {
+        const bool near = std::fabs(value) < near_;
+        int steps = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int side : {-1, 1}) {
+                Coord beside = at;
+                beside[axis] += side;
+                float other = 0.0f;
+                const bool within = at[axis] >> Leaf::LOG2DIM == beside[axis] >> Leaf::LOG2DIM;
+                const bool active =
+                    within ? leaf.probeValue(beside, other) : reader_.probeValue(beside, other);
+                const bool is_other_side = !active && (value < 0.0f) != (other < 0.0f);
+                const float step = is_other_side
+                                       ? std::fabs(value)
+                                       : std::fabs(std::max(value, deepest_) - std::max(other, deepest_));
+                steps += int(step > small_step_) + int(near && step > large_step_);
+            }
+        return steps >= (near ? 2 : 3) || std::fabs(value) > farthest_;
+    }
+
+    FloatGrid::ConstAccessor reader_;
+    float small_step_, large_step_, near_, farthest_, deepest_, widest_;
+};
+
+}
+
+double slope_of(const VdbGrid& level, double voxel) {
+    const FloatGrid& grid = *level.grid;
+    constexpr std::size_t enough = 4096;
+    std::vector<const Leaf*> leaves;
+    grid.tree().getNodes(leaves);
+    const std::size_t stride = leaves.size() / enough + 1;
+    const auto reader = grid.getConstAccessor();
+    std::vector<double> slopes;
+    for (std::size_t l = 0; l < leaves.size(); l += stride)
+        for (auto value = leaves[l]->cbeginValueOn(); value; ++value) {
+            const Coord at = value.getCoord();
+            if ((*value < 0.0f) == (reader.getValue(at.offsetBy(1, 0, 0)) < 0.0f) &&
+                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 1, 0)) < 0.0f) &&
+                (*value < 0.0f) == (reader.getValue(at.offsetBy(0, 0, 1)) < 0.0f))
+                continue;
+            Vec3d gradient;
+            for (int axis = 0; axis < 3; ++axis) {
+                Coord step;
+                step[axis] = 1;
+                gradient[axis] = double(reader.getValue(at + step)) - double(reader.getValue(at - step));
+            }
+            slopes.push_back(0.5 * glm::length(gradient) / voxel);
+            break;
+        }
+    if (slopes.empty())
+        return 1.0;
+    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+    std::nth_element(slopes.begin(), middle, slopes.end());
+    return *middle;
+}
+
+Outliers outliers_of(const VdbGrid& level, double voxel) {
+    const FloatGrid& grid = *level.grid;
+    std::vector<const Leaf*> leaves;
+    grid.tree().getNodes(leaves);
+    std::atomic<std::size_t> count{0}, far{0};
+    const OutlierFinder finder(grid, deepest_of(grid, leaves), voxel);
+    parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
+        OutlierFinder own = finder;
+        for (std::size_t l = begin; l < end; ++l) {
+            const Outliers of_leaf = own.look_at(*leaves[l]);
+            count += of_leaf.count;
+            far += of_leaf.far;
+        }
+    });
+    return {count, far};
+}
+
+}

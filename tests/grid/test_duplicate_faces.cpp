@@ -1,0 +1,45 @@
+#include "alcove/grid/detail/duplicate_faces.h"
+
+#include "alcove/field/level_stack.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/triangulate.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+TEST(Twins, OnlyTheFirstOfThoseOnTheSamePlacesStays) {
+    const std::vector<Vec3d> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-0.0, 0, 0}, {1, 0, 0}};
+    const std::vector<Triangle> triangles{{0, 1, 2}, {0, 1, 3}, {2, 1, 0}, {4, 5, 2}, {3, 5, 4}, {1, 2, 3}};
+    const std::vector<Triangle> kept{{0, 1, 2}, {0, 1, 3}, {1, 2, 3}};
+    EXPECT_EQ(without_duplicate_faces(positions, triangles), kept);
+    EXPECT_TRUE(without_duplicate_faces(positions, {}).empty());
+}
+
+/// A body whose faces are there from both sides has no inside: it is the sheet of those that come first.
+TEST(Twins, OfAWholeMeshMakeNoDifferenceToItsSheet) {
+    const Mesh sphere = test::sphere_mesh(3);
+    Mesh both = sphere, backs;
+    backs.positions = sphere.positions;
+    for (std::size_t f = 0; f < sphere.face_count(); ++f)
+        backs.add_face(std::array{sphere.face(f)[2], sphere.face(f)[1], sphere.face(f)[0]});
+    test::add_part(both, backs, 1.0, Vec3d(0.0));
+    const auto grids = [](const Mesh& mesh, SignChoice sign) {
+        return voxelize(mesh, triangulate(mesh).triangles, {.grid = {}, .sign = sign});
+    };
+    const GridStack twice = grids(both, SignChoice::automatic), once = grids(sphere, SignChoice::sheet);
+    ASSERT_EQ(twice.sign, Sign::sheet);
+    const LevelStack of_twice(twice), of_once(once);
+    for (int i = 0; i < 4000; ++i) {
+        const Vec3 p(0.7f * std::sin(1.1f * i), 0.7f * std::sin(1.7f * i + 1.0f),
+                     0.7f * std::sin(2.3f * i + 2.0f));
+        ASSERT_EQ(of_twice.map(p), of_once.map(p));
+    }
+}
+
+}
+}
