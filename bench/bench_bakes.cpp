@@ -1,7 +1,7 @@
-/// Whole bakes on one core, from an indexed mesh to a value a vertex: normals, grid and tree as a method needs
-/// them, and occlusion, at a radius of a tenth of the diagonal, on a scan of about 100,000 vertices and its
-/// subdivision. Beside them Embree alone, by streams of rays, and `classic` by OpenVDB alone, in a single level
-/// of the same voxel and of one twice as wide.
+/// Whole bakes on one core, from an indexed mesh to one value per vertex: normals, the grid and the BVH if the method
+/// needs them, and occlusion. The radius is a tenth of the diagonal; the meshes are a scan of about 100,000 vertices
+/// and its subdivision. For comparison: Embree alone with ray streams, and `classic` by OpenVDB alone, on a single
+/// level of the same voxel and of one twice as wide.
 ///
 ///     build/bench/bench_bakes --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/field/level_stack.h"
@@ -23,9 +23,7 @@ std::vector<Surfel> surfels_of(const Scan& scan) {
 }
 
 Occluders occluders_of(const Scan& scan, const Method& method) {
-    const auto field = [&] {
-        return LevelStack(voxelize(scan.mesh, scan.triangles, {.grid = {.radius = radius}}));
-    };
+    const auto field = [&] { return LevelStack(voxelize(scan.mesh, scan.triangles, {.grid = {.radius = radius}})); };
     const auto surface = [&] { return RaySurface(unit_positions(scan), scan.triangles); };
     if (!method.needs_mesh)
         return Occluders(field());
@@ -38,8 +36,8 @@ void whole(benchmark::State& state, const MethodChoice& choice) {
     const Scan& s = scan(state.range(0));
     std::vector<float> ao;
     for (auto _ : state)
-        ao = bake_channels(surfels_of(s), occluders_of(s, *choice.method), *choice.method,
-                           choice.settings(radius), Channel::ao)[Channel::ao];
+        ao = evaluate(surfels_of(s), occluders_of(s, *choice.method), *choice.method, choice.settings(radius),
+                      Channel::ao)[Channel::ao];
     count_vertices(state, ao);
 }
 
@@ -48,8 +46,8 @@ void embree(benchmark::State& state) {
     const int rays = static_cast<int>(state.range(1));
     std::vector<float> ao;
     for (auto _ : state) {
-        const PlainEmbree tree(unit_positions(s), s.triangles, RTC_BUILD_QUALITY_LOW);
-        ao = tree.bake(surfels_of(s), radius, rays, PlainEmbree::Calls::stream);
+        const PlainEmbree bvh(unit_positions(s), s.triangles, RTC_BUILD_QUALITY_LOW);
+        ao = bvh.bake(surfels_of(s), radius, rays, PlainEmbree::Calls::stream);
     }
     count_vertices(state, ao);
 }
@@ -64,8 +62,8 @@ void openvdb_classic(benchmark::State& state) {
     const float voxel = 1.0f / static_cast<float>(state.range(1));
     std::vector<float> ao;
     for (auto _ : state)
-        ao = bake(surfels_of(s), OpenVdbField(openvdb_grid(OpenVdbMesh(s), voxel, radius), voxel),
-                  Classic{.radius = radius});
+        ao = evaluate_ao(surfels_of(s), OpenVdbField(openvdb_grid(OpenVdbMesh(s), voxel, radius), voxel),
+                         Classic{.radius = radius});
     count_vertices(state, ao);
 }
 BENCHMARK(openvdb_classic)
@@ -78,9 +76,9 @@ BENCHMARK(openvdb_classic)
 
 int main(int argc, char** argv) {
     for (const MethodChoice& choice :
-         {choose(find_method("traced"), 64), choose(find_method("guided"), 1),
-          choose(find_method("guided"), 3), choose(find_method("calibrated"), 10),
-          choose(find_method("exact"), 16), choose(find_method("exact"), 64), choose(find_method("classic"))})
+         {choose(find_method("traced"), 64), choose(find_method("guided"), 1), choose(find_method("guided"), 3),
+          choose(find_method("calibrated"), 10), choose(find_method("exact"), 16), choose(find_method("exact"), 64),
+          choose(find_method("classic"))})
         benchmark::RegisterBenchmark(choice.label().c_str(), whole, choice)
             ->ArgName("level")
             ->Arg(1)

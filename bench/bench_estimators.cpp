@@ -1,7 +1,7 @@
-/// The cost of occlusion alone: every method of the catalog at its defaults on a scan of about 100,000 vertices,
-/// on one core, at a radius of a tenth of the diagonal; grid and tree are there. Beside them Embree with 16 and
-/// 64 rays a vertex, and the five probes of `classic` through OpenVDB's and NanoVDB's samplers, one after the
-/// other, in a single level of the same voxel. `map` and `rays` are counted a vertex.
+/// The cost of occlusion alone, with the grid and the BVH built in advance: every method of the catalog at its
+/// defaults, on a scan of about 100,000 vertices, on one core, at a radius of a tenth of the diagonal. For comparison:
+/// Embree with 16 and 64 rays per vertex, and the five probes of `classic` through the samplers of OpenVDB and NanoVDB,
+/// one at a time, on a single level of the same voxel. The counters `map` and `rays` are per vertex.
 ///
 ///     build/bench/bench_estimators --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/grid/voxelize.h"
@@ -20,7 +20,7 @@ namespace {
 using namespace alcove;
 
 constexpr float radius = 0.1f;
-/// What voxelize() chooses for that radius.
+/// The voxel that voxelize() chooses for that radius.
 constexpr float voxel = GridOptions{}.largest_voxel;
 
 const LevelStack& field() {
@@ -29,8 +29,8 @@ const LevelStack& field() {
 }
 
 const RaySurface& surface() {
-    static const RaySurface tree(unit_positions(scan()), scan().triangles);
-    return tree;
+    static const RaySurface bvh(unit_positions(scan()), scan().triangles);
+    return bvh;
 }
 
 double map_calls(const Method& method) {
@@ -40,7 +40,7 @@ double map_calls(const Method& method) {
     for (std::size_t i = 0; i < counted; ++i)
         some.push_back(all[i * all.size() / counted]);
     const CountingField counting(field());
-    bake_channels(some, Occluders(counting, surface()), method, {.radius = radius}, Channel::ao);
+    evaluate(some, Occluders(counting, surface()), method, {.radius = radius}, Channel::ao);
     return static_cast<double>(counting.calls()) / counted;
 }
 
@@ -49,18 +49,18 @@ void estimator(benchmark::State& state, const Method& method) {
     const std::vector<Surfel>& surfels = scan().surfels;
     std::vector<float> ao;
     for (auto _ : state)
-        ao = bake_channels(surfels, occluders, method, {.radius = radius}, Channel::ao)[Channel::ao];
+        ao = evaluate(surfels, occluders, method, {.radius = radius}, Channel::ao)[Channel::ao];
     count_vertices(state, ao);
     state.counters["map"] = map_calls(method);
     state.counters["rays"] = choose(method).rays();
 }
 
 void embree(benchmark::State& state, PlainEmbree::Calls calls) {
-    static const PlainEmbree tree(unit_positions(scan()), scan().triangles, RTC_BUILD_QUALITY_MEDIUM);
+    static const PlainEmbree bvh(unit_positions(scan()), scan().triangles, RTC_BUILD_QUALITY_MEDIUM);
     const int rays = static_cast<int>(state.range(0));
     std::vector<float> ao;
     for (auto _ : state)
-        ao = tree.bake(scan().surfels, radius, rays, calls);
+        ao = bvh.bake(scan().surfels, radius, rays, calls);
     count_vertices(state, ao);
     state.counters["rays"] = rays;
 }
@@ -84,7 +84,7 @@ template <class F>
 void classic_through(benchmark::State& state, const F& peer) {
     std::vector<float> ao;
     for (auto _ : state)
-        ao = bake(scan().surfels, peer, Classic{.radius = radius});
+        ao = evaluate_ao(scan().surfels, peer, Classic{.radius = radius});
     count_vertices(state, ao);
 }
 

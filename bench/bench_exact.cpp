@@ -1,6 +1,6 @@
-/// The cost of exact rays: 64 for every vertex of a scan of about 100,000, on one core, at the radius of the
-/// argument in percent of the diagonal. Beside it the same rays one at a time through Embree itself, and the
-/// building of the hierarchy.
+/// The cost of exact rays: 64 for every vertex of a scan of about 100,000 vertices, on one core. The argument is the
+/// radius in percent of the diagonal. For comparison: the same rays one at a time through Embree itself, and the
+/// construction of the BVH.
 ///
 ///     build/bench/bench_exact --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/occlusion/methods/exact.h"
@@ -32,15 +32,15 @@ BENCHMARK(build)->Unit(benchmark::kMillisecond);
 void exact(benchmark::State& state) {
     const RaySurface surface(unit_positions(scan()), scan().triangles);
     for (auto _ : state)
-        benchmark::DoNotOptimize(bake(scan().surfels, surface, Exact{.radius = radius(state), .rays = rays}));
+        benchmark::DoNotOptimize(evaluate_ao(scan().surfels, surface, Exact{.radius = radius(state), .rays = rays}));
     count_rays(state);
 }
 BENCHMARK(exact)->ArgName("radius")->Arg(2)->Arg(10)->Arg(50)->Unit(benchmark::kMillisecond);
 
 void embree_one_at_a_time(benchmark::State& state) {
-    const PlainEmbree tree(unit_positions(scan()), scan().triangles, RTC_BUILD_QUALITY_MEDIUM);
+    const PlainEmbree bvh(unit_positions(scan()), scan().triangles, RTC_BUILD_QUALITY_MEDIUM);
     for (auto _ : state)
-        benchmark::DoNotOptimize(tree.bake(scan().surfels, radius(state), rays, PlainEmbree::Calls::single));
+        benchmark::DoNotOptimize(bvh.bake(scan().surfels, radius(state), rays, PlainEmbree::Calls::single));
     count_rays(state);
 }
 BENCHMARK(embree_one_at_a_time)->ArgName("radius")->Arg(2)->Arg(10)->Arg(50)->Unit(benchmark::kMillisecond);

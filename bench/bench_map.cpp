@@ -1,12 +1,14 @@
-/// The cost of a map(): five probes along the normal of every vertex of a scan of about 100,000 vertices, on
-/// one core, 128 voxels along the diagonal, a band of 5, vertices in file order and in the order bakes use.
-/// Beside it OpenVDB's and NanoVDB's own samplers and the floor: a scalar trilinear fetch from a dense array.
+/// The cost of a map() call: five probes along the normal of every vertex of a scan of about 100,000 vertices, on one
+/// core, with 128 voxels along the diagonal, a band of 5, and the vertices in file order and in the order that bakes
+/// use. For comparison: the samplers of OpenVDB and NanoVDB, and as a baseline a scalar trilinear fetch from a dense
+/// array.
 ///
 ///     build/bench/bench_map --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
+#include "alcove/field/detail/bricks.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "dense_array.h"
 #include "probe_batches.h"
 #include "scan.h"
@@ -28,8 +30,8 @@ struct Scene {
         options.grid.voxel = voxel;
         options.grid.radius = 4.0f * voxel;
         stack = voxelize(scan().mesh, scan().triangles, options);
-        bricks = std::make_unique<Bricks>(stack.levels.front(),
-                                          static_cast<float>(stack.value_unit / stack.frame.diagonal));
+        bricks =
+            std::make_unique<Bricks>(stack.levels.front(), static_cast<float>(stack.value_unit / stack.frame.diagonal));
         for (const std::uint32_t i : spatial_order(scan().surfels))
             sorted.push_back(scan().surfels[i]);
     }
@@ -44,11 +46,11 @@ struct Scene {
 };
 
 const Scene& scene() {
-    static const Scene one;
-    return one;
+    static const Scene scene;
+    return scene;
 }
 
-/// Calls `sample(p in index space)` for every probe.
+/// Calls `sample(p)` for every probe, with p in index space.
 template <class Sample>
 void probe_all(benchmark::State& state, const Sample& sample) {
     const Scene& s = scene();

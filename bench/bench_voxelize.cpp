@@ -1,6 +1,6 @@
-/// From an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: voxelize() beside
-/// openvdb::tools::meshToVolume with its default flags, on a scan of 26,002 vertices and its subdivisions of
-/// 104,002 and 416,002. Compare CPU times, and with two threads real times.
+/// From an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: voxelize(), compared with
+/// openvdb::tools::meshToVolume with its default flags, on a scan of 26,002 vertices and its subdivisions of 104,002
+/// and 416,002. Compare CPU times; with two threads, compare real times.
 ///
 ///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/base/parallel.h"
@@ -28,7 +28,7 @@ void ours(benchmark::State& state) {
         benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, options(state)));
 }
 
-/// All levels of a radius of half the diagonal.
+/// All levels for a radius of half the diagonal.
 void ours_far(benchmark::State& state) {
     const Scan& s = scan(state.range(0));
     const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
@@ -44,8 +44,8 @@ void openvdb_mesh_to_volume(benchmark::State& state) {
     const double voxel = 1.0 / static_cast<double>(state.range(1));
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
     for (auto _ : state)
-        benchmark::DoNotOptimize(openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, mesh.points,
-                                                                                    mesh.triangles, band));
+        benchmark::DoNotOptimize(
+            openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, mesh.points, mesh.triangles, band));
 }
 
 void all_sizes(benchmark::internal::Benchmark* bench) {

@@ -1,4 +1,4 @@
-/// The floor of a map(): a scalar trilinear fetch from a dense array.
+/// A baseline for map(): a scalar trilinear fetch from a dense array.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -8,10 +8,10 @@
 
 namespace alcove {
 
-/// Of 128³ values, all 1: what is fetched, not what it comes to, is the point.
+/// 128³ values, all 1: only the cost of the fetch matters.
 class DenseArray {
   public:
-    /// Coordinates in voxels, none below 0; they are taken modulo the size.
+    /// Coordinates are in voxels, at least 0, and wrap around.
     float at(const Vec3& p) const {
         const auto x = static_cast<std::size_t>(p.x), y = static_cast<std::size_t>(p.y),
                    z = static_cast<std::size_t>(p.z);

@@ -1,4 +1,4 @@
-/// Grids and fields as one makes them with OpenVDB alone, in unit space.
+/// Grids and fields by OpenVDB alone, in unit space.
 #pragma once
 
 #include "scan.h"
@@ -22,15 +22,15 @@ struct OpenVdbMesh {
     std::vector<openvdb::Vec3I> triangles;
 };
 
-/// One level that holds distances up to the radius, with the default flags of meshToVolume.
+/// One level with distances up to the radius, with the default flags of meshToVolume.
 inline openvdb::FloatGrid::Ptr openvdb_grid(const OpenVdbMesh& mesh, float voxel, float radius) {
     constexpr float inner_band = 2.0f;
     return openvdb::tools::meshToSignedDistanceField<openvdb::FloatGrid>(
-        *openvdb::math::Transform::createLinearTransform(voxel), mesh.points, mesh.triangles, {},
-        radius / voxel + 1.0f, inner_band);
+        *openvdb::math::Transform::createLinearTransform(voxel), mesh.points, mesh.triangles, {}, radius / voxel + 1.0f,
+        inner_band);
 }
 
-/// Models Field. For one thread: the accessor remembers its way.
+/// Models Field. Not thread-safe: the accessor caches its path through the tree.
 class OpenVdbField {
   public:
     OpenVdbField(openvdb::FloatGrid::ConstPtr grid, float voxel)

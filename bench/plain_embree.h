@@ -1,4 +1,4 @@
-/// Occlusion as one writes it with Embree alone.
+/// Occlusion by Embree alone, in the most direct way.
 #pragma once
 
 #include "alcove/occlusion/methods/exact.h"
@@ -9,13 +9,12 @@ namespace alcove {
 
 class PlainEmbree {
   public:
-    PlainEmbree(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                RTCBuildQuality quality) {
+    PlainEmbree(std::span<const Vec3> positions, std::span<const Triangle> triangles, RTCBuildQuality quality) {
         rtcSetSceneBuildQuality(scene_, quality);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetGeometryBuildQuality(geometry, quality);
-        auto* corners = static_cast<Vec3*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), positions.size()));
+        auto* corners = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                                   RTC_FORMAT_FLOAT3, sizeof(Vec3), positions.size()));
         std::copy(positions.begin(), positions.end(), corners);
         auto* faces = static_cast<Triangle*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Triangle), triangles.size()));
@@ -33,11 +32,11 @@ class PlainEmbree {
     PlainEmbree& operator=(const PlainEmbree&) = delete;
 
     enum class Calls {
-        single, ///< of rtcOccluded1
-        stream, ///< of rtcOccluded1M, one a surfel
+        single, ///< rtcOccluded1
+        stream, ///< rtcOccluded1M, one call per surfel
     };
 
-    /// A value a surfel, along the directions of Exact.
+    /// Returns one value per surfel, with the ray directions of Exact.
     std::vector<float> bake(std::span<const Surfel> surfels, float radius, int rays, Calls calls) const {
         std::vector<float> ao(surfels.size(), 1.0f);
         const CosineLattice lattice(rays);
@@ -60,10 +59,9 @@ class PlainEmbree {
                     rtcOccluded1(scene_, &context, &ray);
             }
             if (calls == Calls::stream)
-                rtcOccluded1M(scene_, &context, hemisphere.data(), static_cast<unsigned>(rays),
-                              sizeof(RTCRay));
-            const auto open = std::count_if(hemisphere.begin(), hemisphere.end(),
-                                            [](const RTCRay& ray) { return ray.tfar >= 0.0f; });
+                rtcOccluded1M(scene_, &context, hemisphere.data(), static_cast<unsigned>(rays), sizeof(RTCRay));
+            const auto open =
+                std::count_if(hemisphere.begin(), hemisphere.end(), [](const RTCRay& ray) { return ray.tfar >= 0.0f; });
             ao[i] = static_cast<float>(open) / static_cast<float>(rays);
         }
         return ao;

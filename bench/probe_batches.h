@@ -1,4 +1,4 @@
-/// Probes above surfels as estimators make them: batch by batch, height by height.
+/// Probes above surfels in the order that estimators use: batch by batch, height by height.
 #pragma once
 
 #include "alcove/occlusion/estimator.h"
@@ -7,11 +7,10 @@
 
 namespace alcove {
 
-/// Calls `sample(points, distances)` for the points at 0, 1, ... `probes` - 1 steps above each batch of surfels, and
-/// `use(distances, count)` with what it gave.
+/// Calls `sample(points, distances)` for the points at 0, 1, ... `probes` - 1 steps above each batch of surfels, then
+/// `use(distances, count)` with the results.
 template <class Sample, class Use>
-void probe_batches(const std::vector<Surfel>& surfels, int probes, float step, const Sample& sample,
-                   const Use& use) {
+void probe_batches(const std::vector<Surfel>& surfels, int probes, float step, const Sample& sample, const Use& use) {
     SurfelBatch batch;
     SurfelBatch::Values x, y, z, distances;
     for (std::size_t begin = 0; begin < surfels.size(); begin += batch.count) {

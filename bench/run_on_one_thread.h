@@ -1,4 +1,4 @@
-/// What BENCHMARK_MAIN() does, on one thread.
+/// BENCHMARK_MAIN() on one thread.
 #pragma once
 
 #include "alcove/base/parallel.h"

@@ -1,4 +1,4 @@
-/// The scan that benchmarks run on.
+/// The scan that the benchmarks use.
 #pragma once
 
 #include "alcove/mesh/normals.h"
@@ -28,14 +28,14 @@ struct Scan {
 /// Subdivided `level` times: 26,002, 104,002 and 416,002 vertices.
 inline const Scan& scan(std::int64_t level = 1) {
     static std::array<std::unique_ptr<const Scan>, 3> scans;
-    auto& made = scans[static_cast<std::size_t>(level)];
-    if (!made)
-        made = std::make_unique<const Scan>(level == 0 ? read_mesh(ALCOVE_REAL_MESHES "/armadillo.off")
-                                                       : subdivided(scan(level - 1).mesh));
-    return *made;
+    auto& entry = scans[static_cast<std::size_t>(level)];
+    if (!entry)
+        entry = std::make_unique<const Scan>(level == 0 ? read_mesh(ALCOVE_REAL_MESHES "/armadillo.off")
+                                                        : subdivided(scan(level - 1).mesh));
+    return *entry;
 }
 
-/// The corners of the triangles in unit space.
+/// The positions of the vertices in unit space.
 inline std::vector<Vec3> unit_positions(const Scan& scan) {
     std::vector<Vec3> positions;
     positions.reserve(scan.mesh.positions.size());
@@ -44,7 +44,7 @@ inline std::vector<Vec3> unit_positions(const Scan& scan) {
     return positions;
 }
 
-/// Vertices a second, and the mean of their values: what computes the same has nearly the same.
+/// Reports vertices per second and the mean value, which is nearly the same for all that compute the same.
 inline void count_vertices(benchmark::State& state, const std::vector<float>& ao) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ao.size()));
     state.counters["mean_ao"] = std::accumulate(ao.begin(), ao.end(), 0.0) / static_cast<double>(ao.size());

@@ -1,4 +1,4 @@
-/// Finer meshes than setup unpacks.
+/// Finer meshes than those that tools/setup.sh unpacks.
 #pragma once
 
 #include "alcove/mesh/normals.h"
@@ -10,7 +10,7 @@
 
 namespace alcove {
 
-/// Every triangle split in four at the middles of its edges.
+/// Splits every triangle in four at the midpoints of its edges.
 inline Mesh subdivided(const Mesh& mesh) {
     Mesh fine;
     fine.positions = mesh.positions;
@@ -24,39 +24,37 @@ inline Mesh subdivided(const Mesh& mesh) {
     };
     for (const auto& [a, b, c] : triangulate(mesh).triangles) {
         const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        for (const Triangle& t :
-             {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+        for (const Triangle& t : {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
             fine.add_face(t);
     }
     return fine;
 }
 
-/// Smooth noise in [−1, 1] whose waves are about two units long: random values at whole places, in between by
-/// smoothstep. K. Perlin, "An image synthesizer" (1985).
+/// Smooth noise in [−1, 1] with waves about two units long: random values at integer points, interpolated by smoothstep
+/// (Perlin 1985).
 inline double value_noise(const Vec3d& p) {
-    const Vec3d whole = glm::floor(p), part = p - whole, t = part * part * (3.0 - 2.0 * part);
+    const Vec3d cell = glm::floor(p), part = p - cell, t = part * part * (3.0 - 2.0 * part);
     double sum = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::ivec3 step(corner & 1, corner >> 1 & 1, corner >> 2);
-        const double random = 2.0 * unit_interval(hash(Vec3(whole + Vec3d(step)), 0)) - 1.0;
+        const double random = 2.0 * unit_interval(hash(Vec3(cell + Vec3d(step)), 0)) - 1.0;
         const Vec3d weight = glm::mix(1.0 - t, t, Vec3d(step));
         sum += random * weight.x * weight.y * weight.z;
     }
     return sum;
 }
 
-/// Vertices moved along their normals by one mean edge of noise, in waves of 16 and, half as high, of 8 edges.
+/// Moves the vertices along their normals by noise: one mean edge high in waves of 16 edges, plus half as high in waves
+/// of 8.
 inline Mesh displaced(Mesh mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const std::vector<Vec3> normals = area_weighted_normals(mesh, triangles);
     double edge = 0.0;
     for (const Triangle& t : triangles)
-        edge +=
-            glm::length(mesh.positions[t[0]] - mesh.positions[t[1]]) / static_cast<double>(triangles.size());
+        edge += glm::length(mesh.positions[t[0]] - mesh.positions[t[1]]) / static_cast<double>(triangles.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const Vec3d at = mesh.positions[v] / edge;
-        mesh.positions[v] +=
-            edge * (value_noise(at / 8.0) + 0.5 * value_noise(at / 4.0 + 7.0)) * Vec3d(normals[v]);
+        mesh.positions[v] += edge * (value_noise(at / 8.0) + 0.5 * value_noise(at / 4.0 + 7.0)) * Vec3d(normals[v]);
     }
     return mesh;
 }

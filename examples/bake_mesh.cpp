@@ -1,7 +1,9 @@
-// Reads a mesh, computes ambient occlusion at its vertices and writes it with the attribute `ao`:
+// Bakes ambient occlusion at the vertices of a mesh and writes the mesh with the result:
 //
-//     bake_mesh stairs.off stairs_ao.ply
-#include <alcove/alcove.h>
+//     bake_mesh INPUT OUTPUT
+#include <alcove/bake/bake.h>
+#include <alcove/mesh/read.h>
+#include <alcove/mesh/write.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -13,19 +15,15 @@ int main(int argument_count, char** arguments) try {
         return 2;
     }
     alcove::Mesh mesh = alcove::read_mesh(arguments[1]);
-    const auto triangles = alcove::triangulate(mesh).triangles;
-
-    // Lengths are parts of the diagonal of the mesh: occluders count up to a tenth of it.
-    const alcove::Classic classic{.radius = 0.1f};
-    const alcove::LevelStack field(alcove::voxelize(mesh, triangles, {.grid = {.radius = classic.radius}}));
-
-    const auto surfels = alcove::make_surfels(mesh, triangles, alcove::frame_of(mesh.box()));
-    const std::vector<float> ao = alcove::bake(surfels, field, classic);
-    mesh.set_attribute({"ao", 1, ao});
+    const alcove::Baked baked = alcove::bake(mesh, {.radius = "10%", .quality = alcove::Quality::good});
+    alcove::add(mesh, baked);
     alcove::write_mesh(mesh, arguments[2]);
 
-    const auto [darkest, brightest] = std::minmax_element(ao.begin(), ao.end());
-    std::printf("%zu vertices, ao from %.2f to %.2f\n", ao.size(), *darkest, *brightest);
+    const auto [lowest, highest] = std::minmax_element(baked.ao().begin(), baked.ao().end());
+    std::printf("%zu vertices, ao from %.2f to %.2f, by %s\n", baked.ao().size(), *lowest, *highest,
+                baked.method.c_str());
+    for (const std::string& warning : baked.warnings)
+        std::fprintf(stderr, "bake_mesh: warning: %s\n", warning.c_str());
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "bake_mesh: %s\n", error.what());

@@ -1,12 +1,13 @@
-// A new estimator is one struct: its members are the parameters, its call operator is the method. This one is
-// put to a field made of exact shapes, a ball that touches the ground.
-#include <alcove/alcove.h>
+// Adds an estimator: a struct whose members are the parameters and whose call operator is the method. Here it runs on
+// an analytic field, a sphere that rests on the ground.
+#include <alcove/field/primitives.h>
+#include <alcove/occlusion/estimator.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <vector>
 
-/// A single probe along the normal: how far the nearest surface is there, for how far it is over a plane.
+/// One probe along the normal: the distance there, relative to its value over an open plane.
 struct SingleProbe {
     float height = 0.5f;
 
@@ -24,10 +25,9 @@ int main() {
 
     std::vector<alcove::Surfel> ground;
     for (int i = 0; i < 4; ++i)
-        ground.push_back(
-            {.position = {0.9f + 0.2f * static_cast<float>(i), 0.0f, 0.0f}, .normal = {0.0f, 1.0f, 0.0f}});
+        ground.push_back({.position = {0.9f + 0.2f * static_cast<float>(i), 0.0f, 0.0f}, .normal = {0.0f, 1.0f, 0.0f}});
 
-    const std::vector<float> ao = alcove::bake(ground, field, SingleProbe{.height = 0.5f});
+    const std::vector<float> ao = alcove::evaluate_ao(ground, field, SingleProbe{.height = 0.5f});
     for (std::size_t i = 0; i < ao.size(); ++i)
-        std::printf("%.1f from where the ball touches: ao %.3f\n", ground[i].position.x, ao[i]);
+        std::printf("%.1f from the point of contact: ao %.3f\n", ground[i].position.x, ao[i]);
 }

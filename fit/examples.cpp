@@ -1,11 +1,12 @@
 #include "examples.h"
 
 #include "alcove/field/level_stack.h"
+#include "alcove/grid/detail/plan.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/methods/exact.h"
 
 #include <optional>
@@ -23,9 +24,9 @@ void store(const LevelStack& field, const SurfelBatch& batch, float radius, std:
             columns(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(first + k)) = inputs[i][k];
 }
 
-std::vector<Surfel> some_surfels(const std::vector<Surfel>& all, std::size_t most) {
+std::vector<Surfel> some_surfels(const std::vector<Surfel>& all, std::size_t max) {
     std::vector<Surfel> some;
-    const std::size_t count = std::min(most, all.size());
+    const std::size_t count = std::min(max, all.size());
     for (std::size_t i = 0; i < count; ++i)
         if (const Surfel& surfel = all[i * all.size() / count]; surfel.has_normal())
             some.push_back(surfel);
@@ -34,12 +35,11 @@ std::vector<Surfel> some_surfels(const std::vector<Surfel>& all, std::size_t mos
 
 }
 
-std::array<Examples, radii.size()> make_examples(const std::filesystem::path& path, std::size_t most,
-                                                 int rays) {
+std::array<Examples, radii.size()> make_examples(const std::filesystem::path& path, std::size_t max_surfels, int rays) {
     const Mesh mesh = read_mesh(path.string());
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const Frame frame = frame_of(mesh.box());
-    const std::vector<Surfel> surfels = some_surfels(make_surfels(mesh, triangles, frame), most);
+    const std::vector<Surfel> surfels = some_surfels(make_surfels(mesh, triangles, frame), max_surfels);
 
     std::array<Examples, radii.size()> sets;
     const auto count = static_cast<Eigen::Index>(surfels.size());
@@ -54,11 +54,11 @@ std::array<Examples, radii.size()> make_examples(const std::filesystem::path& pa
     std::optional<LevelStack> field;
     float voxel = 0.0f;
     for (std::size_t r = 0; r < radii.size(); ++r) {
-        const std::vector<float> truth = bake(surfels, surface, Exact{.radius = radii[r], .rays = rays});
+        const std::vector<float> truth = evaluate_ao(surfels, surface, Exact{.radius = radii[r], .rays = rays});
         sets[r].truth = Eigen::VectorXf::Map(truth.data(), count);
         VoxelizeOptions options;
         options.grid.radius = radii[r];
-        // The grid of a larger radius serves as well while its voxel is the same.
+        // Reuse the grid of the larger radius if its voxel is the same.
         if (const float wanted = plan_levels(mesh, triangles, options.grid).voxel; wanted != voxel) {
             field.emplace(voxelize(mesh, triangles, options));
             voxel = wanted;

@@ -1,11 +1,11 @@
-/// Fits the coefficients of the calibrated estimator to exact rays on half of the real meshes, and measures both
-/// halves. Writes the table the library is compiled with, and docs/calibrated.md.
+/// Fits the coefficients of the calibrated estimator to exact rays on half of the real meshes, and measures its error
+/// on both halves. Writes the table that the library is compiled with, and docs/calibrated.md.
 ///
 ///     cmake --build build --target alcove_fit && build/fit/alcove_fit
 ///
-/// in a checkout whose meshes tools/setup.sh has unpacked; a few minutes. It writes the table that is there
-/// already, byte for byte, whatever the number of threads: `git diff` tells. Another compiler may round otherwise,
-/// and train to other coefficients of the same error.
+/// Run this in a checkout whose meshes tools/setup.sh has unpacked; it takes a few minutes. It reproduces the existing
+/// table byte for byte with any number of threads, as `git diff` shows. Another compiler may round differently, and
+/// arrive at other coefficients with the same error.
 #include "meshes.h"
 #include "write.h"
 
@@ -18,7 +18,7 @@
 namespace alcove::fit {
 namespace {
 
-constexpr std::size_t most_surfels = 1000; // of a mesh
+constexpr std::size_t max_surfels = 1000; // per mesh
 constexpr int fitted_rays = 256, measured_rays = 1024;
 
 struct MeshExamples {
@@ -26,7 +26,7 @@ struct MeshExamples {
     std::array<Examples, radii.size()> at;
 };
 
-/// Every mesh counts the same at every radius.
+/// Weights the examples so that every mesh counts the same at every radius.
 TrainingSet training_set(const std::vector<MeshExamples>& meshes, Eigen::MatrixXf Examples::*inputs) {
     Eigen::Index count = 0;
     float sets = 0.0f;
@@ -54,8 +54,7 @@ TrainingSet training_set(const std::vector<MeshExamples>& meshes, Eigen::MatrixX
 
 double rmse(const Network& network, const Eigen::MatrixXf& inputs, const Eigen::VectorXf& truth) {
     const Eigen::RowVectorXf ao = network(inputs).cwiseMax(0.0f).cwiseMin(1.0f);
-    return std::sqrt((ao.transpose() - truth).cast<double>().squaredNorm() /
-                     static_cast<double>(truth.size()));
+    return std::sqrt((ao.transpose() - truth).cast<double>().squaredNorm() / static_cast<double>(truth.size()));
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -70,13 +69,12 @@ void run() {
     for (const MeshFile& file : split_meshes(std::string(ALCOVE_TREE) + "/build/meshes/meshes")) {
         fmt::print("{} ({})\n", file.path.filename().string(), file.fitted ? "fitted" : "measured");
         std::fflush(stdout);
-        meshes.push_back({file, file.fitted ? make_examples(file.path, most_surfels, fitted_rays)
-                                            : make_examples(file.path, most_surfels, measured_rays)});
+        meshes.push_back({file, file.fitted ? make_examples(file.path, max_surfels, fitted_rays)
+                                            : make_examples(file.path, max_surfels, measured_rays)});
     }
     fmt::print("training\n");
     std::fflush(stdout);
-    Fit fit{
-        train(training_set(meshes, &Examples::ten)), train(training_set(meshes, &Examples::twenty_four)), {}};
+    Fit fit{train(training_set(meshes, &Examples::ten)), train(training_set(meshes, &Examples::twenty_four)), {}};
     for (const MeshExamples& mesh : meshes) {
         MeshErrors errors{mesh.file.path.filename().string(), mesh.file.fitted, {}};
         for (std::size_t r = 0; r < radii.size(); ++r) {

@@ -1,10 +1,10 @@
-/// Measures what the planner chooses from, errors and costs, on the meshes that calibrated is fitted to and on two
-/// finer ones for costs alone, and writes the table the library is compiled with.
+/// Measures the errors and costs that the planner chooses by, and writes the table that the library is compiled with.
+/// It uses the meshes that calibrated is fitted to, and two finer ones for costs only.
 ///
 ///     cmake --build build --target alcove_fit_plans && build/fit/alcove_fit_plans
 ///
-/// in a checkout whose meshes tools/setup.sh has unpacked; a few minutes, on one core. Costs are of the machine it
-/// runs on: what matters to plans is how they compare.
+/// Run this in a checkout whose meshes tools/setup.sh has unpacked; it takes a few minutes on one core. The costs
+/// depend on the machine it runs on, but plans depend only on their ratios.
 #include "meshes.h"
 
 #include "alcove/bake/detail/pilot.h"
@@ -44,25 +44,26 @@ constexpr std::array<std::pair<std::string_view, int>, 14> methods{{{"guided", 1
                                                                     {"calibrated", 10},
                                                                     {"calibrated", 24}}};
 constexpr TruthOptions truth_options{.rays = 512, .most = 4000};
-constexpr double least_deviation = 0.01;      // of a truth that errors are compared with
-constexpr std::size_t fewest_vertices = 2000; // of a mesh whose seconds count a vertex
+constexpr double min_deviation = 0.01;     // of the truth, for errors to count
+constexpr std::size_t min_vertices = 2000; // of a mesh, for seconds per vertex to count
 constexpr int rays_timed = 64;
-constexpr double doublings = 17.0;
+constexpr double reference_doublings = 17.0; // log2 of the triangles that reference ray costs are given for
 
-/// Errors and costs of all meshes, by what they are of.
-struct Figures {
+/// Errors and costs of one method on all meshes.
+struct MethodFigures {
     std::array<std::vector<double>, radii.size()> error_per_difficulty{};
     std::vector<double> seconds_per_surfel{};
 };
 
 struct Costs {
-    std::vector<std::array<double, 4>> grid{};     // triangles voxelized and left out, cells, seconds
-    std::vector<std::pair<double, double>> tree{}; // triangles, seconds
+    std::vector<std::array<double, 4>> grid{};    // triangles voxelized and left out, cells, seconds
+    std::vector<std::pair<double, double>> bvh{}; // triangles, seconds
     std::array<std::vector<std::pair<double, double>>, radii.size()> rays{}; // triangles, seconds a ray
 };
 
-double relative_ray(double triangles, double slower_per_doubling) {
-    return std::max(1.0 + slower_per_doubling * (std::log2(triangles) - doublings), 0.3);
+/// Cost of a ray relative to one among 2^reference_doublings triangles.
+double relative_ray_cost(double triangles, double slower_per_doubling) {
+    return std::max(1.0 + slower_per_doubling * (std::log2(triangles) - reference_doublings), 0.3);
 }
 
 double median_of(std::vector<double> values) {
@@ -73,66 +74,61 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-class Survey {
+/// Collects measurements, mesh by mesh, and writes the table.
+class PlanTable {
   public:
     void add(const MeasuredMesh& mesh, bool errors_count) {
         const auto triangles = static_cast<double>(mesh.triangles.size());
         const double area = surface_size(mesh.mesh, mesh.triangles).area;
-        costs_.tree.emplace_back(triangles, mesh.tree_seconds);
+        costs_.bvh.emplace_back(triangles, mesh.tree_seconds);
         for (std::size_t r = 0; r < radii.size(); ++r) {
             const Truth truth = make_truth(mesh, radii[r], truth_options);
             const Pilot pilot(mesh.surfels, mesh.rays, radii[r]);
             const Measurement exact = measure(mesh, truth, nullptr, choose(find_method("exact"), rays_timed));
-            const double ray =
-                exact.occlusion_seconds / (static_cast<double>(mesh.order.size()) * rays_timed);
-            if (mesh.order.size() >= fewest_vertices)
+            const double ray = exact.occlusion_seconds / (static_cast<double>(mesh.order.size()) * rays_timed);
+            if (mesh.order.size() >= min_vertices)
                 costs_.rays[r].emplace_back(triangles, ray);
             for (std::size_t v = 0; v < largest_voxels.size(); ++v) {
-                const MeasuredGrid grid =
-                    build_grid(mesh, radii[r], chosen_voxel(radii[r], largest_voxels[v]));
+                const MeasuredGrid grid = build_grid(mesh, radii[r], chosen_voxel(radii[r], largest_voxels[v]));
                 const double voxel = grid.field.resolution();
-                const double voxelized =
-                    triangles_voxelized(area, mesh.triangles.size(), voxel, {.cluster = true});
-                costs_.grid.push_back(
-                    {voxelized, triangles - voxelized, area / (voxel * voxel), grid.seconds});
+                const double voxelized = triangles_voxelized(area, mesh.triangles.size(), voxel, {.cluster = true});
+                costs_.grid.push_back({voxelized, triangles - voxelized, area / (voxel * voxel), grid.seconds});
                 for (std::size_t m = 0; m < methods.size(); ++m) {
                     const Measurement measured =
                         measure(mesh, truth, &grid, choose(find_method(methods[m].first), methods[m].second));
-                    Figures& figures = figures_[v][m];
-                    if (errors_count && measured.error.deviation > least_deviation)
+                    MethodFigures& figures = figures_[v][m];
+                    if (errors_count && measured.error.deviation > min_deviation)
                         figures.error_per_difficulty[r].push_back(measured.error.rmse / pilot.difficulty());
-                    if (mesh.order.size() >= fewest_vertices)
-                        figures.seconds_per_surfel.push_back(measured.occlusion_seconds /
-                                                                 static_cast<double>(mesh.order.size()) -
-                                                             measured.rays * ray);
+                    if (mesh.order.size() >= min_vertices)
+                        figures.seconds_per_surfel.push_back(
+                            measured.occlusion_seconds / static_cast<double>(mesh.order.size()) - measured.rays * ray);
                 }
             }
         }
     }
 
-    std::string table() const {
+    std::string text() const {
         std::string rays, rows;
         for (const auto& at_radius : costs_.rays)
-            rays += fmt::format("{}{:.3g}", rays.empty() ? "" : ", ", reference_ray(at_radius));
+            rays += fmt::format("{}{:.3g}", rays.empty() ? "" : ", ", reference_ray_cost(at_radius));
         for (std::size_t v = 0; v < largest_voxels.size(); ++v)
             for (std::size_t m = 0; m < methods.size(); ++m) {
-                const Figures& figures = figures_[v][m];
+                const MethodFigures& figures = figures_[v][m];
                 std::vector<std::string> errors;
                 for (const auto& at_radius : figures.error_per_difficulty)
                     errors.push_back(fmt::format("{:.3f}", median_of(at_radius)));
                 rows += fmt::format("    {{\"{}\", {}, 1.0f / {:.0f}, {:.2g}, {{{}}}}},\n", methods[m].first,
                                     methods[m].second, 1.0f / largest_voxels[v],
-                                    std::max(median_of(figures.seconds_per_surfel), 0.0),
-                                    fmt::join(errors, ", "));
+                                    std::max(median_of(figures.seconds_per_surfel), 0.0), fmt::join(errors, ", "));
             }
         const GridCosts grid = grid_costs();
-        return fmt::format(head, rays, doublings, slower_per_doubling(), tree_cost(), grid(0), grid(1),
+        return fmt::format(head, rays, reference_doublings, slower_per_doubling(), bvh_cost(), grid(0), grid(1),
                            grid(2), grid(3), grid(4), 2 * methods.size(), rows);
     }
 
   private:
     static constexpr std::string_view head =
-        R"(/// What the planner chooses from. Written by build/fit/alcove_fit_plans: do not edit.
+        R"(/// The errors and costs that the planner chooses by. Written by build/fit/alcove_fit_plans: do not edit.
 #pragma once
 
 #include <array>
@@ -141,26 +137,27 @@ class Survey {
 // clang-format off
 namespace alcove::plan_table {{
 
-/// Of the diagonal; 1 stands for all that are larger.
+/// As fractions of the diagonal; 1 stands for all larger radii.
 inline constexpr std::array radii{{0.02, 0.05, 0.1, 0.2, 0.5, 1.0}};
 
-/// CPU seconds; a ray at each radius, among 2^doublings_of_rays triangles.
+/// CPU seconds. Costs per ray are for each radius, among 2^doublings_of_rays triangles.
 inline constexpr std::array seconds_per_ray{{{}}};
 inline constexpr double doublings_of_rays = {};
 inline constexpr double rays_slower_per_doubling = {:.3f};
 inline constexpr double tree_seconds_per_triangle = {:.3g};
 inline constexpr double seconds_per_grid = {:.3g};
-inline constexpr double grid_seconds_per_triangle = {:.3g}; ///< that is voxelized
-inline constexpr double clustering_seconds_per_triangle = {:.3g}; ///< that is left out
-inline constexpr double grid_seconds_per_voxel = {:.3g}; ///< a cell of the finest level that the surface is in: area / voxel²
-inline constexpr double grid_seconds_of_both = {:.3g}; ///< by the geometric mean of triangles that are voxelized and such cells
+inline constexpr double grid_seconds_per_triangle = {:.3g}; ///< per voxelized triangle
+inline constexpr double clustering_seconds_per_triangle = {:.3g}; ///< per triangle that clustering removes
+inline constexpr double grid_seconds_per_voxel = {:.3g}; ///< per finest voxel on the surface: area / voxel²
+inline constexpr double grid_seconds_of_both = {:.3g}; ///< per geometric mean of voxelized triangles and such voxels
 
 struct Row {{
     std::string_view method;
     int samples;
-    float largest_voxel;       ///< as GridOptions has it
-    double seconds_per_surfel; ///< beside its rays
-    std::array<double, radii.size()> error_per_difficulty; ///< RMSE over Pilot::difficulty(), median of the meshes, at each radius
+    float largest_voxel;       ///< as in GridOptions
+    double seconds_per_surfel; ///< without its rays
+    /// RMSE / Pilot::difficulty(), median over the meshes, at each radius.
+    std::array<double, radii.size()> error_per_difficulty;
 }};
 inline constexpr std::array<Row, {}> rows{{{{
 {}}}}};
@@ -169,7 +166,7 @@ inline constexpr std::array<Row, {}> rows{{{{
 )";
 
     double slower_per_doubling() const {
-        // Of each radius beside its own mean: all share one slope.
+        // One slope for all radii, fitted to costs relative to the mean of each radius.
         double xy = 0.0, xx = 0.0;
         for (const auto& at_radius : costs_.rays) {
             double x = 0.0, y = 0.0;
@@ -183,20 +180,20 @@ inline constexpr std::array<Row, {}> rows{{{{
         }
         return std::max(xy / xx, 0.0);
     }
-    double reference_ray(const std::vector<std::pair<double, double>>& at_radius) const {
+    double reference_ray_cost(const std::vector<std::pair<double, double>>& at_radius) const {
         std::vector<double> seconds;
         for (const auto& [triangles, ray] : at_radius)
-            seconds.push_back(ray / relative_ray(triangles, slower_per_doubling()));
+            seconds.push_back(ray / relative_ray_cost(triangles, slower_per_doubling()));
         return median_of(seconds);
     }
-    double tree_cost() const {
-        double seconds = 0.0, all = 0.0;
-        for (const auto& [triangles, tree] : costs_.tree)
-            seconds += tree, all += triangles;
-        return seconds / all;
+    double bvh_cost() const {
+        double seconds = 0.0, triangles = 0.0;
+        for (const auto& [count, bvh_seconds] : costs_.bvh)
+            seconds += bvh_seconds, triangles += count;
+        return seconds / triangles;
     }
     using GridCosts = Eigen::Matrix<double, 5, 1>;
-    /// Least squares of what each grid took beside what it is said to take.
+    /// Least-squares fit that minimizes the relative errors of the predicted seconds of each grid.
     GridCosts grid_costs() const {
         Eigen::MatrixXd terms(costs_.grid.size(), 5);
         for (std::size_t i = 0; i < costs_.grid.size(); ++i) {
@@ -207,30 +204,30 @@ inline constexpr std::array<Row, {}> rows{{{{
         return terms.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(terms.rows())).cwiseMax(0.0);
     }
 
-    std::array<std::array<Figures, methods.size()>, largest_voxels.size()> figures_;
+    std::array<std::array<MethodFigures, methods.size()>, largest_voxels.size()> figures_;
     Costs costs_;
 };
 
 void run() {
     const ThreadLimit one_core(1);
-    Survey survey;
+    PlanTable table;
     for (const MeshFile& file : split_meshes(std::string(ALCOVE_TREE) + "/build/meshes/meshes")) {
         if (!file.fitted)
             continue;
         fmt::print("{}\n", file.path.filename().string());
         std::fflush(stdout);
         const Mesh mesh = read_mesh(file.path.string());
-        survey.add(MeasuredMesh(file.path.string(), mesh), true);
+        table.add(MeasuredMesh(file.path.string(), mesh), true);
         if (file.path.stem() == "armadillo") {
             const Mesh finer = subdivided(mesh);
-            survey.add(MeasuredMesh("finer", finer), false);
-            survey.add(MeasuredMesh("finest", subdivided(finer)), false);
+            table.add(MeasuredMesh("finer", finer), false);
+            table.add(MeasuredMesh("finest", subdivided(finer)), false);
         }
     }
     const std::string path = std::string(ALCOVE_TREE) + "/lib/alcove/bake/detail/plan_table.h";
-    std::ofstream table(path);
-    table << survey.table();
-    if (!table.flush())
+    std::ofstream file(path);
+    file << table.text();
+    if (!file.flush())
         throw std::runtime_error("cannot write " + path);
 }
 

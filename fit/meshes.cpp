@@ -12,7 +12,7 @@
 namespace alcove::fit {
 namespace {
 
-constexpr std::size_t fewest_vertices = 100;
+constexpr std::size_t min_vertices = 100;
 
 std::string family_of(std::string name) {
     for (const std::string prefix : {"refined_", "larger_"})
@@ -26,7 +26,7 @@ std::string family_of(std::string name) {
 
 bool large_enough(const std::filesystem::path& path) {
     try {
-        return read_mesh(path.string()).vertex_count() >= fewest_vertices;
+        return read_mesh(path.string()).vertex_count() >= min_vertices;
     } catch (const InputError&) {
         return false;
     }

@@ -1,4 +1,4 @@
-/// Which meshes are fitted, and which are only measured.
+/// Splits the meshes into those that are fitted and those that are only measured.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@ struct MeshFile {
     bool fitted;
 };
 
-/// The mesh files of a folder that can be read and have at least 100 vertices, each shape once or with its
-/// variants: of files that differ by their extension the first, none named *-shuffled. Variants share a family,
-/// the leading letters of the name, "refined_" and "larger_" dropped, lower case. Families in alphabetical
-/// order are fitted and held out in turn.
+/// The mesh files of a folder that can be read and have at least 100 vertices. Of files that differ only in their
+/// extension, it takes the first; it skips files named *-shuffled. Variants of a shape form a family: their names begin
+/// with the same letters, ignoring case and the prefixes "refined_" and "larger_". Every other family, in alphabetical
+/// order, is held out, so that no held-out mesh is a variant of a fitted one.
 std::vector<MeshFile> split_meshes(const std::filesystem::path& folder);
 
 }

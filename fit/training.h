@@ -1,4 +1,4 @@
-/// Training of a small network, always the same for the same examples.
+/// Deterministic training of a small network.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,24 +12,23 @@ struct Layer {
     Eigen::VectorXf bias;
 };
 
-/// Rectified units in all layers but the last.
+/// Rectified linear units (Nair and Hinton 2010) in all layers except the last.
 struct Network {
     std::vector<Layer> layers;
 
-    /// A value a column.
+    /// One value per column of inputs.
     Eigen::RowVectorXf operator()(const Eigen::MatrixXf& inputs) const;
 };
 
 struct TrainingSet {
-    Eigen::MatrixXf inputs; ///< a column an example
+    Eigen::MatrixXf inputs; ///< one column per example
     Eigen::VectorXf truth;
-    Eigen::VectorXf weights; ///< of the examples; their mean is 1
+    Eigen::VectorXf weights; ///< of the examples, with a mean of 1
 };
 
-/// A network of hidden layers of 16 and 8 units whose value, clamped to [0, 1], is near the truth, and 1 for
-/// inputs of 0. The loss is Huber's with its bend at 0.1, so that meshes no probe can tell anything of have
-/// little say. P. J. Huber, "Robust estimation of a location parameter" (1964); D. P. Kingma, J. Ba, "Adam: a
-/// method for stochastic optimization" (2015).
+/// Trains a network with hidden layers of 16 and 8 units. Its value, clamped to [0, 1], approximates the truth, and is
+/// 1 for inputs of 0. The loss is quadratic below 0.1 and linear above (Huber 1964), to limit the influence of meshes
+/// whose occlusion the probes cannot predict. The optimizer is Adam (Kingma and Ba 2015).
 Network train(const TrainingSet& set);
 
 }

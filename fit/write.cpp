@@ -5,7 +5,7 @@
 namespace alcove::fit {
 namespace {
 
-constexpr std::array<std::size_t, 2> reported_radii{1, 3}; // of each mesh: 20 % and 5 %
+constexpr std::array<std::size_t, 2> reported_radii{1, 3}; // for each mesh: 20 % and 5 %
 
 std::string row_of(const auto& values) {
     std::string text = "{{";
@@ -16,8 +16,7 @@ std::string row_of(const auto& values) {
 
 std::string network_of(const Network& network, std::string_view name) {
     const auto units = [&](std::size_t layer) { return network.layers[layer].weights.cols(); };
-    std::string text =
-        fmt::format("inline constexpr Network<{}, {}, {}> {}{{\n", units(0), units(1), units(2), name);
+    std::string text = fmt::format("inline constexpr Network<{}, {}, {}> {}{{\n", units(0), units(1), units(2), name);
     for (const Layer& layer : network.layers) {
         text += "    {{{\n";
         for (Eigen::Index o = 0; o < layer.weights.rows(); ++o)
@@ -70,12 +69,11 @@ std::string table_of(const Fit& fit) {
         text += " " + name;
         column += name.size() + 1;
     }
-    text += "\n/// Mean RMSE over the meshes that were not, by radius, with 10 | 24 probes | the best "
-            "constant:\n";
+    text += "\n/// Mean RMSE over the held-out meshes, by radius, with 10 | 24 probes | the best constant:\n";
     for (std::size_t r = 0; r < radii.size(); ++r) {
         const Errors mean = mean_of(fit, false, r).errors;
-        text += fmt::format("///     {}: {:.4f} | {:.4f} | {:.4f}\n", percent(radii[r]), mean.ten,
-                            mean.twenty_four, mean.deviation);
+        text += fmt::format("///     {}: {:.4f} | {:.4f} | {:.4f}\n", percent(radii[r]), mean.ten, mean.twenty_four,
+                            mean.deviation);
     }
     text += "#pragma once\n\n"
             "#include \"alcove/occlusion/methods/calibrated_inputs.h\"\n"
@@ -87,31 +85,30 @@ std::string table_of(const Fit& fit) {
 }
 
 std::string report_of(const Fit& fit) {
-    std::string text = "# How near the calibrated estimator is to exact rays\n\n"
-                       "Written by `build/fit/alcove_fit`, which fits the coefficients of `calibrated` and "
-                       "measures them: do not "
-                       "edit.\n\n"
-                       "RMSE against the reference AO, with 1,024 rays a vertex on the meshes that were "
-                       "never fitted and 256 on "
-                       "the others,\non the grids a bake takes by default. Half of the meshes, by the "
-                       "alphabet, are never fitted: "
-                       "they are what counts. The\ndeviation of the truth is the RMSE of the best constant. "
-                       "Every mesh counts the "
-                       "same.\n\n"
-                       "## Mean over the meshes\n\n"
-                       "| radius | meshes | deviation of the truth | 10 probes | 24 probes |\n"
-                       "| --- | --- | --- | --- | --- |\n";
+    std::string text = R"(# Error of the calibrated estimator
+
+Written by `build/fit/alcove_fit`, which fits the coefficients of `calibrated` and measures their error: do not edit.
+
+The RMSE is against the reference ao, with 1,024 rays per vertex on the held-out meshes and 256 on the others, on the
+grids that a bake uses by default. Half of the meshes, chosen by name, are held out: their errors are the ones that
+matter. The standard deviation of the reference is the RMSE of the best constant. All meshes have the same weight.
+
+## Mean over the meshes
+
+| radius | meshes | standard deviation of the reference | 10 probes | 24 probes |
+| --- | --- | --- | --- | --- |
+)";
     for (const bool fitted : {false, true})
         for (std::size_t r = 0; r < radii.size(); ++r) {
             const Mean mean = mean_of(fit, fitted, r);
             text += fmt::format("| {} | {} {} | {:.4f} | {:.4f} | {:.4f} |\n", percent(radii[r]), mean.meshes,
-                                fitted ? "fitted" : "never fitted", mean.errors.deviation, mean.errors.ten,
+                                fitted ? "fitted" : "held out", mean.errors.deviation, mean.errors.ten,
                                 mean.errors.twenty_four);
         }
     text += "\n## Each mesh\n\n| mesh | fitted |";
     std::string rule = "| --- | --- |";
     for (const std::size_t r : reported_radii) {
-        text += fmt::format(" {}: deviation | 10 probes | 24 probes |", percent(radii[r]));
+        text += fmt::format(" {}: standard deviation | 10 probes | 24 probes |", percent(radii[r]));
         rule += " --- | --- | --- |";
     }
     text += "\n" + rule + "\n";

@@ -1,4 +1,4 @@
-/// What a fit leaves: the table the library is compiled with, and the error of every mesh.
+/// Writes the results of a fit: the table that the library is compiled with, and the error on every mesh.
 #pragma once
 
 #include "examples.h"
@@ -9,10 +9,10 @@
 
 namespace alcove::fit {
 
-/// Of one mesh at one radius.
+/// Errors on one mesh at one radius.
 struct Errors {
-    double deviation;        ///< standard deviation of the truth: the RMSE of the best constant
-    double ten, twenty_four; ///< RMSE
+    double deviation;        ///< standard deviation of the reference: the RMSE of the best constant
+    double ten, twenty_four; ///< RMSE with ten and 24 probes
 };
 
 struct MeshErrors {
@@ -26,10 +26,10 @@ struct Fit {
     std::vector<MeshErrors> errors;
 };
 
-/// A C++ header of the coefficients, with the meshes they were fitted to and the mean errors above them.
+/// A C++ header of the coefficients. A comment lists the meshes they were fitted to and the mean errors.
 std::string table_of(const Fit& fit);
 
-/// The mean errors, and those of each mesh, as Markdown.
+/// The mean errors and those on each mesh, as Markdown.
 std::string report_of(const Fit& fit);
 
 }

@@ -1,4 +1,4 @@
-/// What must hold whatever the bytes are. A failure ends the program as a crash does, so that any driver sees it.
+/// Checks of invariants that any input must meet. A violation aborts the program, so that any driver detects it.
 #pragma once
 
 #include "alcove/base/errors.h"
@@ -22,19 +22,19 @@ inline std::string_view text_of(Bytes bytes) {
 inline void require(bool holds, std::string_view what) {
     if (holds)
         return;
-    std::fprintf(stderr, "does not hold: %.*s\n", static_cast<int>(what.size()), what.data());
+    std::fprintf(stderr, "invariant violated: %.*s\n", static_cast<int>(what.size()), what.data());
     std::abort();
 }
 
-/// The message of an error: one line that begins with the name of the file, if there is one.
+/// Checks that a message is one line and begins with the name of the file, if there is one.
 inline void check_message(std::string_view message, std::string_view file) {
-    const bool one_line = std::none_of(message.begin(), message.end(),
-                                       [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; });
+    const bool one_line =
+        std::none_of(message.begin(), message.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; });
     require(one_line && message.starts_with(file) && message.size() > file.size(),
-            "a message is one line about the file: " + std::string(message));
+            "a message is one line that begins with the name of the file: " + std::string(message));
 }
 
-/// Calls f(), which may end with the exceptions of errors.h about that file and with no other.
+/// Calls f(), which may throw only the exceptions of errors.h, with messages about that file.
 template <class F>
 void accept_refusals(std::string_view file, F&& f) {
     try {

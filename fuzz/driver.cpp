@@ -1,9 +1,9 @@
-// Runs a target without a fuzzer: on the files it is given, then on random damage to them.
+// Runs a target without a fuzzer: on the given files, then on random mutations of them.
 //
 //     fuzz_NAME ROUNDS SEED FILE|FOLDER...
 //
-// An input that fails, takes more than two seconds or 512 MB is kept in NAME.failed in the working folder; a folder that
-// is not there holds no files.
+// An input that crashes, or takes more than two seconds or 512 MB, is saved as fuzz_NAME.failed in the working folder.
+// A folder that does not exist counts as empty.
 #include "alcove/base/detail/memory.h"
 #include "mutations.h"
 
@@ -26,28 +26,28 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace {
 
-constexpr int most_seconds = 2;
-constexpr std::size_t most_bytes = std::size_t{512} << 20;
+constexpr int max_seconds = 2;
+constexpr std::size_t max_bytes = std::size_t{512} << 20;
 
-std::string kept_in; ///< the name of the file for an input that fails
-std::string at_work; ///< that input
+std::string failure_file; ///< where an input that fails is saved
+std::string current;      ///< the input that is being run
 
-/// Safe in a signal handler.
-[[noreturn]] void keep_and_end(const char* reason) {
-    const int file = ::open(kept_in.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    const bool kept = ::write(file, at_work.data(), at_work.size()) == static_cast<ssize_t>(at_work.size());
+/// Async-signal-safe.
+[[noreturn]] void save_and_exit(const char* reason) {
+    const int file = ::open(failure_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const bool saved = ::write(file, current.data(), current.size()) == static_cast<ssize_t>(current.size());
     for (const char* part :
-         {reason, kept ? "; the input is kept in " : "; the input cannot be kept in ", kept_in.c_str(), "\n"})
+         {reason, saved ? "; input saved as " : "; input cannot be saved as ", failure_file.c_str(), "\n"})
         if (::write(STDERR_FILENO, part, std::strlen(part)) < 0)
             break;
     ::_exit(1);
 }
 
 void on_signal(int number) {
-    keep_and_end(number == SIGALRM ? "an input takes more than two seconds" : "an input ends the program");
+    save_and_exit(number == SIGALRM ? "an input takes more than two seconds" : "an input crashes the program");
 }
 
-/// On a stack of their own, for inputs that overflow the other.
+/// Handlers run on a stack of their own, in case an input overflows the normal one.
 void handle_signals() {
     static std::array<char, 1 << 16> stack;
     const stack_t own{stack.data(), 0, stack.size()};
@@ -65,14 +65,14 @@ void set_alarm(int seconds) {
 }
 
 void run(std::string bytes) {
-    at_work = std::move(bytes);
+    current = std::move(bytes);
     alcove::forget_peak_resident_bytes();
     const std::size_t before = alcove::peak_resident_bytes();
-    set_alarm(most_seconds);
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(at_work.data()), at_work.size());
+    set_alarm(max_seconds);
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(current.data()), current.size());
     set_alarm(0);
-    if (alcove::peak_resident_bytes() > before + most_bytes)
-        keep_and_end("an input takes more than 512 MB");
+    if (alcove::peak_resident_bytes() > before + max_bytes)
+        save_and_exit("an input takes more than 512 MB");
 }
 
 std::string bytes_of(const std::filesystem::path& file) {
@@ -80,7 +80,7 @@ std::string bytes_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(input), {}};
 }
 
-/// The files named, and those in folders, in the order of their names.
+/// The contents of the given files and of those in the given folders, sorted by path.
 std::vector<std::string> inputs_of(char** begin, char** end) {
     std::vector<std::filesystem::path> files;
     for (; begin != end; ++begin)
@@ -106,10 +106,10 @@ int main(int count, char** arguments) {
                         seed = std::strtoul(arguments[2], nullptr, 10);
     const std::vector<std::string> inputs = inputs_of(arguments + 3, arguments + count);
     if (inputs.empty()) {
-        std::fprintf(stderr, "%s: there are no inputs\n", arguments[0]);
+        std::fprintf(stderr, "%s: no inputs\n", arguments[0]);
         return 2;
     }
-    kept_in = std::filesystem::path(arguments[0]).filename().string() + ".failed";
+    failure_file = std::filesystem::path(arguments[0]).filename().string() + ".failed";
     handle_signals();
 
     std::printf("%zu inputs, %lu mutations, seed %lu\n", inputs.size(), rounds, seed);

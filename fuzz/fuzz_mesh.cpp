@@ -1,4 +1,4 @@
-// The readers of meshes, one a target: ALCOVE_FUZZ_FILE is the name that the bytes come under.
+// Target for the mesh readers, built once per format. ALCOVE_FUZZ_FILE is the file name that the reader sees.
 #include "alcove/mesh/formats/formats.h"
 #include "checks.h"
 #include "mesh_checks.h"

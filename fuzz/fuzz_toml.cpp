@@ -1,5 +1,5 @@
-// The reader of scene files; the meshes that a scene names are not opened.
-#include "alcove/scene/scene_file.h"
+// Target for the reader of scene files. It does not open the meshes that a scene names.
+#include "alcove/scene/scene.h"
 #include "checks.h"
 #include "memory_file.h"
 
@@ -20,8 +20,8 @@ void check_length(const std::optional<Length>& length) {
 void check_object(const SceneObject& object) {
     fuzz::require(!object.name.empty(), "objects have names");
     const Placement& placement = object.placement;
-    fuzz::require(is_finite(placement.translation) && is_finite(placement.rotation) &&
-                      std::isfinite(placement.scale) && placement.scale > 0.0,
+    fuzz::require(is_finite(placement.translation) && is_finite(placement.rotation) && std::isfinite(placement.scale) &&
+                      placement.scale > 0.0,
                   "placements are finite");
     if (const auto* mesh = std::get_if<MeshShape>(&object.shape)) {
         fuzz::require(!mesh->file.empty(), "meshes have files");
@@ -38,11 +38,12 @@ void check_scene(const Scene& scene) {
     for (const SceneObject& object : scene.objects)
         check_object(object);
     check_length(scene.occlusion.radius);
-    fuzz::require(!scene.light.toward_sun || *scene.light.toward_sun != Vec3d(0.0), "the sun is somewhere");
-    fuzz::require(scene.camera.fov >= 1.0 && scene.camera.fov <= 170.0, "the camera sees something");
+    fuzz::require(!scene.light.toward_sun || *scene.light.toward_sun != Vec3d(0.0),
+                  "the direction of the sun is not zero");
+    fuzz::require(scene.camera.fov >= 1.0 && scene.camera.fov <= 170.0, "the field of view is in range");
     fuzz::require(scene.size.width >= 1 && scene.size.width <= longest_side && scene.size.height >= 1 &&
                       scene.size.height <= longest_side && scene.samples >= 1,
-                  "pictures have pixels");
+                  "the size of the image is in range");
 }
 
 }

@@ -1,4 +1,4 @@
-// The reader of level sets.
+// Target for the reader of level sets.
 #include "alcove/vdb/vdb_file.h"
 #include "checks.h"
 #include "grid_checks.h"

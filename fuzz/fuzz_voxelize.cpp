@@ -1,4 +1,4 @@
-// Voxelization of whatever triangles the bytes make: shared, degenerate, far apart, not finite.
+// Target for voxelization. The bytes define the triangles: shared, degenerate, far apart, not finite.
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
 #include "checks.h"
@@ -12,7 +12,7 @@ using namespace alcove;
 
 namespace {
 
-/// Values from the front of the bytes; 0 behind the last of them.
+/// Takes values from the front of the bytes; zeros after the last byte.
 class Source {
   public:
     explicit Source(fuzz::Bytes bytes) : left_(bytes) {}
@@ -20,7 +20,7 @@ class Source {
     bool empty() const { return left_.empty(); }
     std::uint8_t byte() { return take<std::uint8_t>(); }
 
-    /// Mostly one of a few, so that vertices coincide and triangles meet.
+    /// Mostly one of a few values, so that vertices coincide and triangles share them.
     double coordinate() {
         using Limits = std::numeric_limits<double>;
         constexpr double infinity = Limits::infinity(), no_number = Limits::quiet_NaN();
@@ -81,7 +81,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Source source({data, size});
     const VoxelizeOptions options = options_of(source);
     const Mesh mesh = soup_of(source);
-    fuzz::accept_refusals("",
-                          [&] { fuzz::check_grids(voxelize(mesh, triangulate(mesh).triangles, options)); });
+    fuzz::accept_refusals("", [&] { fuzz::check_grids(voxelize(mesh, triangulate(mesh).triangles, options)); });
     return 0;
 }

@@ -19,7 +19,7 @@ void check_level(const LevelSet& level) {
             "bands are finite and above 0");
     require(is_finite(Vec3d(level.origin)), "origins are finite");
     const openvdb::FloatGrid& grid = *level.grid->grid;
-    require(is_positive(grid.background()), "the background is air");
+    require(is_positive(grid.background()), "the background is outside");
     require(level.active_voxels == grid.activeVoxelCount(), "active voxels are counted");
     for (auto value = grid.cbeginValueAll(); value; ++value)
         require(std::isfinite(*value), "values are finite");
@@ -29,8 +29,7 @@ void check_level(const LevelSet& level) {
 
 void check_grids(const GridStack& stack) {
     require(!stack.levels.empty(), "there are levels");
-    require(is_positive(stack.frame.diagonal) && is_positive(stack.value_unit) &&
-                is_finite(stack.frame.center),
+    require(is_positive(stack.frame.diagonal) && is_positive(stack.value_unit) && is_finite(stack.frame.center),
             "the frame is finite");
     for (const LevelSet& level : stack.levels)
         check_level(level);

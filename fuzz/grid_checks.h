@@ -1,11 +1,12 @@
-/// What holds of every stack of grids, read or made.
+/// Invariants of every stack of grids, read or voxelized.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
 
 namespace alcove::fuzz {
 
-/// Levels of finite, positive voxels, each value of them finite.
+/// Checks that the stack has levels, that their voxels and bands are finite and positive, that all values are finite,
+/// and that warnings are well-formed.
 void check_grids(const GridStack& stack);
 
 }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes the binary seeds into corpus/; those that are text are written by hand.
+"""Writes the binary seeds into corpus/. The text seeds are written by hand.
 
     make_corpus.py PROGRAM
 
-PROGRAM is build/alcove, which makes one of the level sets.
+PROGRAM is build/alcove; it makes one of the level sets.
 """
 import os
 import struct
@@ -49,13 +49,13 @@ def text(words):
 
 
 def vdb(offsets, meta):
-    """A ball in one leaf; only active values are stored, as they are."""
+    """A ball in one leaf; stores active values only, uncompressed."""
     def metadata(entries):
         return struct.pack("<I", len(entries)) + b"".join(
             text(name) + text(kind) + struct.pack("<I", len(value)) + value for name, kind, value in entries)
 
     def node(mask_bytes):
-        """Of one child at its origin, and no other value than the background."""
+        """A node with one child, at its origin, and the background everywhere else."""
         return b"\1" + bytes(mask_bytes - 1) + bytes(mask_bytes) + b"\0"
 
     voxel, active_only = 0.125, 2
@@ -97,7 +97,7 @@ def main():
                                     ("file_voxel_count", "int64", struct.pack("<q", 512))]))
     write("vdb/masked_without_offsets.vdb", vdb(0, []))
     write("vdb/of_alcove.vdb", box_of_program(sys.argv[1]))
-    # Options, vertices less one, their coordinates, three vertices a face.
+    # Options, number of vertices minus one, their coordinates, three vertices per face.
     tetrahedron = bytes([4 - 1]) + bytes([8, 8, 8, 12, 8, 8, 8, 12, 8, 8, 8, 12])
     faces = bytes([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3])
     write("voxelize/tetrahedron", b"\0" + tetrahedron + faces)

@@ -1,4 +1,4 @@
-/// A file that is only in memory, for readers that take nothing else.
+/// A file in memory, for readers that only take paths.
 #pragma once
 
 #include "checks.h"
@@ -13,7 +13,7 @@ namespace alcove::fuzz {
 class MemoryFile {
   public:
     explicit MemoryFile(Bytes bytes) : descriptor_(::memfd_create("alcove", MFD_CLOEXEC)) {
-        require(descriptor_ >= 0, "there is room for a file in memory");
+        require(descriptor_ >= 0, "a file in memory can be created");
         for (std::size_t done = 0; done < bytes.size();) {
             const ssize_t written = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
             require(written > 0, "a file in memory can be written");

@@ -23,24 +23,20 @@ void check_size(const std::vector<T>& values, std::size_t wanted, std::string_vi
 }
 
 void check_arrays(const Mesh& mesh) {
-    require(mesh.face_begin.front() == 0 && mesh.face_begin.back() == mesh.corners.size(),
-            "faces hold all corners");
+    require(mesh.face_begin.front() == 0 && mesh.face_begin.back() == mesh.corners.size(), "faces cover all corners");
     require(std::is_sorted(mesh.face_begin.begin(), mesh.face_begin.end()), "faces follow each other");
-    require(std::all_of(mesh.corners.begin(), mesh.corners.end(),
-                        [&](auto v) { return v < mesh.vertex_count(); }),
+    require(std::all_of(mesh.corners.begin(), mesh.corners.end(), [&](auto v) { return v < mesh.vertex_count(); }),
             "indices are in range");
-    check_size(mesh.normals, mesh.vertex_count(), "one normal a vertex");
-    check_size(mesh.vertex_uvs, mesh.vertex_count(), "one texture coordinate a vertex");
-    check_size(mesh.vertex_colors, mesh.vertex_count(), "one colour a vertex");
-    check_size(mesh.corner_uvs, mesh.corners.size(), "one texture coordinate a corner");
-    check_size(mesh.face_colors, mesh.face_count(), "one colour a face");
-    require(mesh.vertex_uvs.empty() || mesh.corner_uvs.empty(),
-            "texture coordinates are of vertices or of corners");
-    require(std::all_of(mesh.normals.begin(), mesh.normals.end(), is_unit_or_zero),
-            "normals are of length 1 or 0");
+    check_size(mesh.normals, mesh.vertex_count(), "one normal per vertex");
+    check_size(mesh.vertex_uvs, mesh.vertex_count(), "one texture coordinate per vertex");
+    check_size(mesh.vertex_colors, mesh.vertex_count(), "one colour per vertex");
+    check_size(mesh.corner_uvs, mesh.corners.size(), "one texture coordinate per corner");
+    check_size(mesh.face_colors, mesh.face_count(), "one colour per face");
+    require(mesh.vertex_uvs.empty() || mesh.corner_uvs.empty(), "only vertices or corners have texture coordinates");
+    require(std::all_of(mesh.normals.begin(), mesh.normals.end(), is_unit_or_zero), "normals have length 1 or 0");
 }
 
-/// What a warning that ends with `words` counts; 0 without one.
+/// The count at the start of the warning that contains `words`; "0" if there is none.
 std::string counted_in_warnings(const Mesh& mesh, std::string_view words) {
     for (const std::string& warning : mesh.warnings)
         if (warning.find(words) != std::string::npos)
@@ -76,23 +72,20 @@ void check_triangles(const Mesh& mesh, const Triangulation& cut) {
     for (const Triangle& t : cut.triangles) {
         require(t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "triangles have three vertices");
         for (const std::uint32_t v : t)
-            require(v < mesh.vertex_count() && is_finite(mesh.positions[v]),
-                    "triangles are of finite vertices");
+            require(v < mesh.vertex_count() && is_finite(mesh.positions[v]), "the vertices of triangles are finite");
     }
-    require(cut.faces_left_out <= mesh.face_count() &&
-                mesh.face_count() - cut.faces_left_out <= cut.triangles.size(),
-            "faces are cut or left out");
+    require(cut.faces_left_out <= mesh.face_count() && mesh.face_count() - cut.faces_left_out <= cut.triangles.size(),
+            "every face is triangulated or left out");
 }
 
 void check_surfels(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     const Frame frame = frame_of(mesh.box());
-    require(is_finite(frame.center) && std::isfinite(frame.diagonal) && frame.diagonal > 0.0,
-            "the frame is finite");
+    require(is_finite(frame.center) && std::isfinite(frame.diagonal) && frame.diagonal > 0.0, "the frame is finite");
     const std::vector<Surfel> surfels = make_surfels(mesh, triangles, frame);
-    require(surfels.size() == mesh.vertex_count(), "one surfel a vertex");
+    require(surfels.size() == mesh.vertex_count(), "one surfel per vertex");
     for (const Surfel& surfel : surfels) {
-        require(is_unit_or_zero(surfel.normal), "surfels have normals of length 1 or 0");
-        require(glm::length(surfel.position) < 0.501f, "surfels lie in the ball around the box");
+        require(is_unit_or_zero(surfel.normal), "normals of surfels have length 1 or 0");
+        require(glm::length(surfel.position) < 0.501f, "surfels are in the ball around the box");
     }
 }
 

@@ -1,12 +1,12 @@
-/// What holds of every mesh that was read, and of what is built on it.
+/// Invariants of every mesh that was read, and of its triangles and surfels.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
 
 namespace alcove::fuzz {
 
-/// Sizes that agree, indices in range, vertices that are finite or counted in a warning; triangles and surfels of finite
-/// vertices only.
+/// Checks that array sizes agree, that indices are in range, that a warning counts the vertices that are not finite,
+/// and that triangles and surfels are of finite vertices only.
 void check_mesh(const Mesh& mesh);
 
 }

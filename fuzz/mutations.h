@@ -9,8 +9,8 @@ namespace alcove::fuzz {
 
 using Random = std::mt19937_64;
 
-/// `bytes` with one to six changes: bits and bytes set, words and numbers made extreme, pieces deleted, doubled, taken from
-/// another of the `others`, the end cut off.
+/// Applies one to six random changes to `bytes`: flips bits, sets bytes, replaces words and numbers by extreme ones,
+/// deletes or duplicates ranges, copies ranges from one of the `others`, truncates.
 std::string mutated(std::string bytes, const std::vector<std::string>& others, Random& random);
 
 }

@@ -14,7 +14,7 @@ double segment_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
     return glm::length(p - a - t * ab);
 }
 
-/// The nearest of the three edges, or the plane where the foot of the perpendicular is inside all of them.
+/// The distance to the nearest edge, or to the plane if the foot of the perpendicular is inside the triangle.
 double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     const double edges =
         std::fmin(segment_distance(p, a, b), std::fmin(segment_distance(p, b, c), segment_distance(p, c, a)));
@@ -34,14 +34,13 @@ double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const V
 }
 
 ExactSurface::ExactSurface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame)
-    : triangles_(triangles.begin(), triangles.end()), device_(rtcNewDevice(nullptr)),
-      scene_(rtcNewScene(device_)) {
+    : triangles_(triangles.begin(), triangles.end()), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
     for (const Vec3d& p : mesh.positions)
         positions_.push_back(is_finite(p) ? (p - frame.center) / frame.diagonal : Vec3d(0.0));
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                 RTC_FORMAT_FLOAT3, 12, positions_.size()));
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, positions_.size()));
     for (const Vec3d& p : positions_)
         for (int axis = 0; axis < 3; ++axis)
             *vertices++ = static_cast<float>(p[axis]);
@@ -68,12 +67,12 @@ bool ExactSurface::query(RTCPointQueryFunctionArguments* arguments) {
     const ExactSurface& self = *best.first;
     const Triangle& t = self.triangles_[arguments->primID];
     const RTCPointQuery& at = *arguments->query;
-    const double d = triangle_distance({at.x, at.y, at.z}, self.positions_[t[0]], self.positions_[t[1]],
-                                       self.positions_[t[2]]);
+    const double d =
+        triangle_distance({at.x, at.y, at.z}, self.positions_[t[0]], self.positions_[t[1]], self.positions_[t[2]]);
     if (d >= best.second)
         return false;
     best.second = d;
-    // A little more than the distance, so that rounding in the boxes does not lose an equal one.
+    // Slightly more than the distance, so that rounding of bounding boxes does not exclude an equal one.
     arguments->query->radius = static_cast<float>(d * 1.00001);
     return true;
 }
@@ -90,19 +89,17 @@ double ExactSurface::distance(const Vec3& p) const {
 double ExactSurface::winding_number(const Vec3& p) const {
     double angle = 0.0;
     for (const Triangle& t : triangles_) {
-        const Vec3d a = positions_[t[0]] - Vec3d(p), b = positions_[t[1]] - Vec3d(p),
-                    c = positions_[t[2]] - Vec3d(p);
+        const Vec3d a = positions_[t[0]] - Vec3d(p), b = positions_[t[1]] - Vec3d(p), c = positions_[t[2]] - Vec3d(p);
         const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        angle +=
-            2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                             la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+        angle += 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                                  la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
     }
     return angle / (4.0 * std::numbers::pi);
 }
 
 template <class Open>
 void ExactSurface::cast(const Surfel& surfel, float radius, int rays, Open open) const {
-    // A frame of its own, from whatever axis the normal is furthest from.
+    // A tangent frame, built independently of the library's.
     const Vec3 n = surfel.normal;
     const Vec3 other = std::fabs(n.x) < 0.6f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 tangent = glm::normalize(glm::cross(other, n)), bitangent = glm::cross(n, tangent);
@@ -110,15 +107,14 @@ void ExactSurface::cast(const Surfel& surfel, float radius, int rays, Open open)
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     for (int i = 0; i < rays; ++i) {
-        // Hammersley points: i/N and the bit-reversed i.
+        // Malley's method (Malley 1988) on Hammersley points: (i + 1/2)/N and the bit-reversed i.
         std::uint32_t bits = static_cast<std::uint32_t>(i), reversed = 0;
         for (int b = 0; b < 32; ++b, bits >>= 1)
             reversed = reversed << 1 | (bits & 1);
         const double u = (i + 0.5) / rays, v = reversed * 0x1p-32;
         const double r = std::sqrt(u), phi = 2.0 * std::numbers::pi * v;
         const Vec3 d = static_cast<float>(r * std::cos(phi)) * tangent +
-                       static_cast<float>(r * std::sin(phi)) * bitangent +
-                       static_cast<float>(std::sqrt(1.0 - u)) * n;
+                       static_cast<float>(r * std::sin(phi)) * bitangent + static_cast<float>(std::sqrt(1.0 - u)) * n;
         RTCRay ray{};
         ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
         ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
@@ -146,8 +142,7 @@ Vec3d ExactSurface::bent_normal(const Surfel& surfel, float radius, int rays) co
 Vec3 ExactSurface::point(std::size_t triangle, float u, float v) const {
     const Triangle& t = triangles_[triangle];
     const double root = std::sqrt(u);
-    return Vec3((1.0 - root) * positions_[t[0]] + root * (1.0 - v) * positions_[t[1]] +
-                root * v * positions_[t[2]]);
+    return Vec3((1.0 - root) * positions_[t[0]] + root * (1.0 - v) * positions_[t[1]] + root * v * positions_[t[2]]);
 }
 
 }

@@ -1,4 +1,4 @@
-/// Exact answers to hold grids against: closest points by Embree, inside and outside by the winding number.
+/// Exact reference values for grids: closest points by Embree, the inside by the winding number.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -9,7 +9,7 @@
 
 namespace alcove::test {
 
-/// Everything in unit space.
+/// Exact distances, signs and occlusion of a mesh, all in unit space.
 class ExactSurface {
   public:
     ExactSurface(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame);
@@ -20,22 +20,23 @@ class ExactSurface {
     /// Unsigned distance; the final point-triangle distances are evaluated in double.
     double distance(const Vec3& p) const;
 
-    /// Generalised winding number: 1 inside, 0 outside a closed surface. A. Van Oosterom, J. Strackee, "The
-    /// solid angle of a plane triangle" (1983), summed over all triangles.
+    /// Generalised winding number: 1 inside, 0 outside a closed surface. The sum of the solid angles of all
+    /// triangles (Van Oosterom and Strackee 1983).
     double winding_number(const Vec3& p) const;
 
-    /// The reference occlusion: visibility of `rays` cosine-weighted directions within `radius`, two-sided.
+    /// The reference occlusion: the share of `rays` cosine-weighted directions that are open within `radius`,
+    /// two-sided.
     double visibility(const Surfel& surfel, float radius, int rays) const;
 
-    /// The mean of those directions that are open, unit length; zero where none is.
+    /// The normalized mean of the open directions; zero if there is none.
     Vec3d bent_normal(const Surfel& surfel, float radius, int rays) const;
 
-    /// A point of the surface: of the given triangle, at barycentric coordinates from u, v in [0, 1).
+    /// A point of the given triangle, uniformly distributed for uniform u, v in [0, 1).
     Vec3 point(std::size_t triangle, float u, float v) const;
     std::size_t size() const { return triangles_.size(); }
 
   private:
-    /// Calls open(direction) for each of the rays that meets nothing.
+    /// Calls open(direction) for each ray that hits nothing.
     template <class Open>
     void cast(const Surfel& surfel, float radius, int rays, Open open) const;
     static bool query(RTCPointQueryFunctionArguments* arguments);

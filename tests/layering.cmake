@@ -1,10 +1,11 @@
-# Reads every #include under lib/alcove and apps and fails, naming file and line, on one that goes against
-# the direction of dependencies:
+# Checks every #include under lib/alcove and apps against the direction of dependencies. Fails on a violation and prints
+# its file and line.
 #
 #     base <- mesh <- nearest <- grid <- vdb    base <- field <- occlusion
 #     grid, occlusion <- bake <- render <- scene, measure <- apps
 #
-# Headers directly in a folder of lib/alcove are public (nearest/ has none); those deeper are not installed.
+# Headers directly in a folder of lib/alcove are public, except those of nearest/. Headers in subfolders are not
+# installed.
 #
 #     cmake [-D TREE=<checkout>] -P layering.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -12,7 +13,7 @@ if(NOT TREE)
     cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH TREE)
 endif()
 
-# Folders each folder of lib/alcove may include.
+# The folders that each folder of lib/alcove may include.
 set(base_may_include base)
 set(mesh_may_include base mesh)
 set(nearest_may_include base mesh nearest)
@@ -25,10 +26,10 @@ set(render_may_include base mesh grid vdb field occlusion bake render)
 set(scene_may_include base mesh grid vdb field occlusion bake render scene)
 set(measure_may_include base mesh grid vdb field occlusion bake render measure)
 set(apps_may_include base mesh grid vdb field occlusion bake render scene measure)
-# Files that may include grid beside those.
+# Files that may also include grid.
 set(grid_also_in "^lib/alcove/field/(level_stack|detail/bricks|detail/sample_bricks)\\.(h|cpp)$")
 
-# Third-party libraries: how their headers look, and the files that may include them.
+# Third-party libraries: patterns of their headers and of the files that may include them.
 set(libraries openvdb embree openexr png openmesh tbb highway fast_float eigen cli11 json toml)
 set(openvdb_headers "^(openvdb|nanovdb)/")
 set(openvdb_only_in "^lib/alcove/((grid|vdb|field)/[a-z0-9_/]+\\.cpp|grid/detail/vdb_grid\\.h)$")
@@ -55,8 +56,8 @@ set(toml_only_in "^lib/alcove/scene/")
 set(json_headers "^nlohmann/")
 set(json_only_in "^apps/")
 
-# OpenVDB takes a quarter of a minute in each of these.
-set(most_openvdb_sources 6)
+# Each of these takes a quarter of a minute to compile, because of OpenVDB.
+set(max_openvdb_sources 6)
 
 set(failures)
 macro(fail reason)
@@ -74,7 +75,7 @@ endfunction()
 
 # Whether a header, relative to lib/, is installed.
 function(is_public path result)
-    if(path MATCHES "^alcove/[a-z0-9_]+/[a-z0-9_]+\\.h$" AND NOT path MATCHES "^alcove/nearest/")
+    if(path MATCHES "^alcove/[a-z0-9_]+/[a-z0-9_]+\\.h$" AND NOT path MATCHES "^alcove/(nearest|measure)/")
         set(${result} TRUE PARENT_SCOPE)
     else()
         set(${result} FALSE PARENT_SCOPE)
@@ -113,25 +114,25 @@ foreach(line IN LISTS found)
         continue()
     endif()
 
-    # Our own headers.
+    # Headers of this project.
     if(header MATCHES "^alcove/")
         folder_of(${header} target)
         string(REGEX REPLACE "^alcove/" "" target_header ${header})
         if(file STREQUAL lib/alcove/alcove.h)
             list(APPEND umbrella ${target_header})
         elseif(header STREQUAL alcove/alcove.h AND NOT folder STREQUAL apps)
-            fail("is for users: include what is needed")
+            fail("is for users: include the headers you need instead")
         elseif(NOT target IN_LIST ${folder}_may_include
                AND NOT (target STREQUAL grid AND file MATCHES "${grid_also_in}"))
             fail("is a back-edge: ${folder} may include ${${folder}_may_include}")
         endif()
         is_public(${header} target_public)
         if(public AND NOT target_public)
-            fail("is not installed, and this header is")
+            fail("is not installed, but this header is")
         endif()
         if(target_header MATCHES "^grid/detail/vdb_grid\\.h$")
             if(NOT file MATCHES "${openvdb_only_in}")
-                fail("brings openvdb, which has its place elsewhere (${openvdb_only_in})")
+                fail("brings openvdb, which only files matching ${openvdb_only_in} may include")
             elseif(file MATCHES "\\.cpp$")
                 list(APPEND openvdb_sources ${file})
             endif()
@@ -140,21 +141,21 @@ foreach(line IN LISTS found)
     endif()
     if(include MATCHES "^\"")
         if(NOT folder STREQUAL apps)
-            fail("is not written from alcove/ on")
+            fail("is relative: write the path from alcove/ on")
         elseif(header MATCHES "/")
             fail("leaves its folder")
         endif()
         continue()
     endif()
 
-    # Other people's.
-    if(public AND NOT header MATCHES "^([a-z_]+|glm/.*)$")
-        fail("is third-party in a public header, which may include glm and the standard library")
+    # Headers of other projects.
+    if(public AND NOT header MATCHES "^([a-z_]+|glm/.*)$" AND NOT file STREQUAL lib/alcove/bake/openmesh.h)
+        fail("is third-party in a public header, which may only include glm and the standard library")
     endif()
     foreach(library IN LISTS libraries)
         if(header MATCHES "${${library}_headers}")
             if(NOT file MATCHES "${${library}_only_in}")
-                fail("is ${library}, which has its place elsewhere (${${library}_only_in})")
+                fail("is ${library}, which only files matching ${${library}_only_in} may include")
             elseif(library STREQUAL openvdb AND file MATCHES "\\.cpp$")
                 list(APPEND openvdb_sources ${file})
             endif()
@@ -164,12 +165,12 @@ endforeach()
 
 list(REMOVE_DUPLICATES openvdb_sources)
 list(LENGTH openvdb_sources count)
-if(count GREATER most_openvdb_sources)
+if(count GREATER max_openvdb_sources)
     list(JOIN openvdb_sources ", " openvdb_sources)
-    string(APPEND failures "${count} sources include OpenVDB, ${most_openvdb_sources} may: ${openvdb_sources}\n")
+    string(APPEND failures "${count} sources include OpenVDB, at most ${max_openvdb_sources} may: ${openvdb_sources}\n")
 endif()
 
-# The umbrella holds the public headers of the library alcove::alcove.
+# The umbrella header includes all public headers of the library alcove::alcove.
 file(GLOB headers RELATIVE ${TREE}/lib/alcove ${TREE}/lib/alcove/*/*.h)
 list(FILTER headers EXCLUDE REGEX "^(nearest|render|scene|measure)/|^bake/openmesh\\.h$")
 foreach(header IN LISTS headers)
@@ -180,7 +181,7 @@ endforeach()
 
 if(failures)
     message(NOTICE "${failures}")
-    message(FATAL_ERROR "The includes break the rules.")
+    message(FATAL_ERROR "Some includes break the rules.")
 endif()
 list(LENGTH found count)
 message("${count} includes follow the direction of dependencies")

@@ -1,4 +1,4 @@
-/// The real meshes that setup unpacks.
+/// The real meshes that the setup unpacks.
 #pragma once
 
 #include "alcove/mesh/read.h"
@@ -10,8 +10,8 @@ namespace alcove::test {
 
 struct RealMesh {
     explicit RealMesh(const std::string& name)
-        : mesh(read_mesh(std::string(ALCOVE_REAL_MESHES) + "/" + name)),
-          triangles(triangulate(mesh).triangles), frame(frame_of(mesh.box())) {}
+        : mesh(read_mesh(std::string(ALCOVE_REAL_MESHES) + "/" + name)), triangles(triangulate(mesh).triangles),
+          frame(frame_of(mesh.box())) {}
 
     Mesh mesh;
     std::vector<Triangle> triangles;

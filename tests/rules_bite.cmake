@@ -1,47 +1,48 @@
-# Proves that layering.cmake and sizes.cmake bite: each case breaks one rule in a tiny made-up tree, and the
-# script must fail and name the place. The tree as it is must pass.
+# Tests that layering.cmake and sizes.cmake detect violations. Each case breaks one rule in a small generated tree; the
+# script must fail and name the place. The unbroken tree must pass.
 #
 #     cmake -D SCRATCH=<directory> -P rules_bite.cmake
 cmake_minimum_required(VERSION 3.25)
 set(tree ${SCRATCH}/tree)
 
-function(make_sound_tree)
+function(make_tree)
     file(REMOVE_RECURSE ${tree})
-    file(WRITE ${tree}/lib/alcove/internal_headers.cmake "set(alcove_internal_headers grid/vdb.h)\n")
-    file(WRITE ${tree}/lib/alcove/alcove.h
-         "#include \"alcove/base/types.h\"\n#include \"alcove/field/detail/bricks.h\"\n#include \"alcove/field/field.h\"\n")
+    file(WRITE ${tree}/lib/alcove/alcove.h "#include \"alcove/base/types.h\"\n#include \"alcove/field/field.h\"\n")
     file(WRITE ${tree}/lib/alcove/base/types.h "#include <glm/vec3.hpp>\n#include <vector>\n")
     file(WRITE ${tree}/lib/alcove/grid/detail/vdb_grid.h "#include <openvdb/openvdb.h>\n")
     file(WRITE ${tree}/lib/alcove/grid/band.cpp "#include \"alcove/grid/detail/vdb_grid.h\"\n")
     file(WRITE ${tree}/lib/alcove/field/field.h "#include \"alcove/base/types.h\"\n")
     file(WRITE ${tree}/lib/alcove/field/detail/bricks.h "#include \"alcove/field/field.h\"\n")
-    file(WRITE ${tree}/lib/alcove/field/bricks.cpp
+    file(WRITE ${tree}/lib/alcove/field/detail/bricks.cpp
          "#include \"alcove/field/detail/bricks.h\"\n#include \"alcove/grid/detail/vdb_grid.h\"\n")
-    file(WRITE ${tree}/apps/alcove/main.cpp "#include \"common.h\"\n#include \"alcove/alcove.h\"\n")
+    file(WRITE ${tree}/apps/alcove/main.cpp "#include \"options.h\"\n#include \"alcove/bake/bake.h\"\n")
+    file(WRITE ${tree}/docs/architecture.md "| `lib/alcove/base` | a |\n| `lib/alcove/grid` | b |\n"
+         "| `lib/alcove/grid/detail` | c |\n| `lib/alcove/field` | d |\n| `lib/alcove/field/detail` | e |\n")
 endfunction()
 
-# Runs a rule on the tree; `expected` is what it must say, empty where it must pass.
+# Runs a rule on the tree. The output must contain `expected`; if that is empty, the rule must pass.
 function(check rule expected)
     execute_process(COMMAND ${CMAKE_COMMAND} -D TREE=${tree} -P ${CMAKE_CURRENT_LIST_DIR}/${rule}.cmake
-                    RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
-    string(FIND "${said}" "${expected}" at)
+                    RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    string(FIND "${output}" "${expected}" at)
     if(expected STREQUAL "" AND NOT status EQUAL 0)
-        message(FATAL_ERROR "${rule} refuses a sound tree:\n${said}")
+        message(FATAL_ERROR "${rule} fails on an unbroken tree:\n${output}")
     elseif(NOT expected STREQUAL "" AND (status EQUAL 0 OR at EQUAL -1))
-        message(FATAL_ERROR "${rule} does not say '${expected}' but:\n${said}")
+        message(FATAL_ERROR "${rule} does not report '${expected}' but:\n${output}")
     endif()
 endfunction()
 
-# Writes one file into a sound tree and expects the rule to name the place.
+# Writes one file into an unbroken tree and expects the rule to report it.
 function(refused rule file content expected)
-    make_sound_tree()
+    make_tree()
     file(WRITE ${tree}/${file} "${content}")
     check(${rule} "${expected}")
 endfunction()
 
-make_sound_tree()
+make_tree()
 check(layering "")
 check(sizes "")
+check(docs "")
 
 refused(layering lib/alcove/grid/band.cpp "\n#include <vector>\n  # include \"alcove/field/field.h\"\n"
         "lib/alcove/grid/band.cpp:3: \"alcove/field/field.h\" is a back-edge")
@@ -50,28 +51,42 @@ refused(layering lib/alcove/field/trace.cpp "#include \"alcove/grid/grid_stack.h
         "lib/alcove/field/trace.cpp:1: \"alcove/grid/grid_stack.h\" is a back-edge")
 refused(layering lib/alcove/occlusion/bake.cpp "#include \"alcove/render/image.h\"\n" "is a back-edge")
 refused(layering lib/alcove/mesh/read.cpp "#include \"alcove/alcove.h\"\n" "is for users")
-refused(layering lib/alcove/mesh/read.cpp "#include \"../grid/plan.h\"\n" "is not written from alcove/ on")
+refused(layering lib/alcove/mesh/read.cpp "#include \"../grid/plan.h\"\n" "is relative")
 refused(layering lib/alcove/shading/sun.cpp "#include <vector>\n" "is in a folder without a rule")
 refused(layering lib/alcove/field/field.h "#include <openvdb/openvdb.h>\n" "lib/alcove/field/field.h:1")
 refused(layering lib/alcove/field/field.h "#include <fmt/format.h>\n" "is third-party in a public header")
-refused(layering lib/alcove/field/detail/bricks.h "#include \"alcove/grid/detail/vdb_grid.h\"\n" "is internal, and this header is public")
+refused(layering lib/alcove/field/detail/bricks.h "#include \"alcove/grid/detail/vdb_grid.h\"\n" "brings openvdb")
+refused(layering lib/alcove/field/field.h "#include \"alcove/field/detail/bricks.h\"\n" "is not installed, but this header is")
 refused(layering lib/alcove/occlusion/bake.cpp "#include <embree3/rtcore.h>\n" "is embree")
 refused(layering lib/alcove/grid/grid_io.cpp "#include <OpenEXR/ImfHeader.h>\n" "is openexr")
 refused(layering apps/alcove/bake.cpp "#include \"alcove/grid/detail/vdb_grid.h\"\n" "apps/alcove/bake.cpp:1: \"alcove/grid/detail/vdb_grid.h\" brings openvdb")
 refused(layering apps/alcove/bake.cpp "#include <tbb/parallel_for.h>\n" "is tbb")
-refused(layering lib/alcove/field/combine.h "#include <tuple>\n" "leaves out field/combine.h")
+refused(layering lib/alcove/field/primitives.h "#include <tuple>\n" "leaves out field/primitives.h")
 
-make_sound_tree()
+make_tree()
 foreach(i RANGE 1 5)
     file(WRITE ${tree}/lib/alcove/grid/more_${i}.cpp "#include <openvdb/openvdb.h>\n")
 endforeach()
 check(layering "7 sources include OpenVDB")
 
 string(REPEAT "//\n" 401 long_file)
-refused(sizes lib/alcove/grid/band.cpp "${long_file}" "lib/alcove/grid/band.cpp: 401 lines")
+make_tree()
+file(WRITE ${tree}/lib/alcove/grid/band.cpp "${long_file}")
+execute_process(COMMAND ${CMAKE_COMMAND} -D TREE=${tree} -P ${CMAKE_CURRENT_LIST_DIR}/sizes.cmake
+                RESULT_VARIABLE status ERROR_VARIABLE output)
+if(NOT status EQUAL 0 OR NOT output MATCHES "lib/alcove/grid/band.cpp: 401 lines")
+    message(FATAL_ERROR "sizes does not warn of a long file but: ${output}")
+endif()
 string(REPEAT "//\n" 121 long_header)
-make_sound_tree()
-foreach(header types field/field field/bricks)
+make_tree()
+foreach(header base/types field/field field/detail/bricks)
     file(WRITE ${tree}/lib/alcove/${header}.h "${long_header}")
 endforeach()
 check(sizes "the median header has 121 lines")
+
+refused(docs lib/alcove/mesh/mesh.cpp "" "docs/architecture.md does not list lib/alcove/mesh")
+refused(docs docs/architecture.md "| `lib/alcove/base` | a |\n| `lib/alcove/attic` | b |\n" "there is no lib/alcove/attic")
+make_tree()
+file(WRITE ${tree}/examples/a.cpp "int main() {}\n")
+file(WRITE ${tree}/docs/cpp.md "<!-- examples/a.cpp -->\n\n```cpp\nint main() { return 1; }\n```\n")
+check(docs "docs/cpp.md does not quote examples/a.cpp as it is")

@@ -1,4 +1,4 @@
-/// Small meshes made by hand, for tests with closed-form answers.
+/// Small meshes for tests with closed-form results.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -11,18 +11,16 @@
 
 namespace alcove::test {
 
-/// A sphere of unit radius: an octahedron's faces split `level` times, pushed out. Faces turn outward.
-/// `keep` says which faces stay, by their centre.
+/// A unit sphere: an octahedron subdivided `level` times, with vertices projected to the sphere and faces outward.
+/// `keep` selects faces by their centre.
 inline Mesh sphere_mesh(
     int level, const std::function<bool(const Vec3d&)>& keep = [](const Vec3d&) { return true; }) {
     std::vector<Vec3d> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    std::vector<Triangle> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    std::vector<Triangle> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int l = 0; l < level; ++l) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [at, added] =
-                middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
+            const auto [at, added] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(points.size()));
             if (added)
                 points.push_back(glm::normalize(points[a] + points[b]));
             return at->second;
@@ -42,7 +40,7 @@ inline Mesh sphere_mesh(
     return mesh;
 }
 
-/// Adds the faces of `part`, scaled and moved, to a mesh.
+/// Adds the faces of `part` to a mesh, first scaled and then moved.
 inline void add_part(Mesh& mesh, const Mesh& part, double scale, const Vec3d& move) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3d& p : part.positions)
@@ -55,7 +53,7 @@ inline void add_part(Mesh& mesh, const Mesh& part, double scale, const Vec3d& mo
     }
 }
 
-/// A box of the given half extents around the origin, each face n × n quads, corners shared, faces outward.
+/// A box with the given half extents around the origin. Each side has n × n quads with shared corners; faces outward.
 inline Mesh box_mesh(const Vec3d& half, int n) {
     Mesh mesh;
     std::map<std::array<int, 3>, std::uint32_t> known;

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Compares what bench_compare.sh measured: SIDE.PROGRAM.* of Google Benchmark in a folder, for the sides base and head.
+"""Compares the measurements of bench_compare.sh: the files SIDE.PROGRAM.* of Google Benchmark in a folder, where SIDE
+is base or head.
 
-Prints a table of the medians, and writes the program and a filter of each benchmark that is slower to a file.
+Prints a table of the medians. Writes the program and a filter for each benchmark that is slower to a file.
 """
 
 import argparse
@@ -20,7 +21,7 @@ def medians(folder, side):
     times = collections.defaultdict(list)
     for file in folder.glob(f"{side}.*"):
         program = file.name.split(".")[1]
-        # A program without a benchmark that matches leaves its file empty.
+        # The file is empty if no benchmark of the program matches.
         for run in json.loads(file.read_text() or '{"benchmarks": []}')["benchmarks"]:
             if run["run_type"] == "iteration" and not run.get("error_occurred"):
                 times[program, run["name"]].append(run["cpu_time"] * MILLISECONDS[run["time_unit"]])
@@ -29,14 +30,14 @@ def medians(folder, side):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("bound", type=float, help="of CPU time of head, of that of base")
+    parser.add_argument("bound", type=float, help="largest allowed ratio of the CPU time of head to that of base")
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("slower", type=pathlib.Path, help="file to write")
+    parser.add_argument("slower", type=pathlib.Path, help="file to write the slower benchmarks to")
     arguments = parser.parse_args()
     base, head = (medians(arguments.folder, side) for side in ("base", "head"))
     common = [key for key in base if key in head]
     if not common:
-        print("bench_compare.py: no benchmark is in both", file=sys.stderr)
+        print("bench_compare.py: base and head have no benchmark in common", file=sys.stderr)
         return 2
 
     width = max(len(name) for _, name in common)
@@ -48,7 +49,7 @@ def main():
         remark = ""
         if PEER.match(name):
             noisy = not 1 / arguments.bound <= ratio <= arguments.bound
-            remark = "too noisy: the same in both" if noisy else "peer"
+            remark = "same code in both: the measurement is too noisy" if noisy else "peer"
         elif ratio > arguments.bound:
             remark = "slower"
             slower.append(f"{program} ^{re.escape(name)}$\n")

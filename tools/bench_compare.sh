@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Tells whether a change is slower: builds the benchmarks of two revisions, runs them by turns, and fails where the
-# median CPU time of one in HEAD is more than BOUND times that in BASE. What seems slower is measured again by itself,
-# twice, and must be so each time: other work on the machine is uneven.
+# Finds slowdowns: builds the benchmarks of two revisions, runs them in turns, and fails if the median CPU time of a
+# benchmark in HEAD is more than BOUND times that in BASE. Benchmarks that seem slower are measured again by themselves,
+# twice, and count only if they are slower each time, because the load of the machine varies.
 #
 #     tools/bench_compare.sh [--bound=1.15] [--rounds=5] [--benchmark_filter=REGEX] [--benchmark_min_time=0.05]
 #                            BASE [HEAD]
 #
-# HEAD is the commit checked out here if left out; what is not committed is not measured. Both are built in worktrees
-# under build/compare, which go when it ends. Benchmarks of OpenVDB, NanoVDB and Embree are the same in both: they are
-# not judged, and their ratios tell the noise. All benchmarks take half an hour: name those of the change. Exit codes:
-# 0 not slower, 1 slower, 2 not compared.
+# HEAD defaults to the commit that is checked out; uncommitted changes are not measured. Both are built in worktrees
+# under build/compare, which are removed at the end. Benchmarks of OpenVDB, NanoVDB and Embree run the same code in
+# both: they are not judged, and their ratios show the noise. All benchmarks together take half an hour, so select those
+# that the change affects. Exit codes: 0 not slower, 1 slower, 2 not compared.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -29,19 +29,19 @@ for argument; do
     --bound=*) bound=${argument#*=} ;;
     --benchmark_filter=*) filter=${argument#*=} ;;
     --benchmark_*) passed_on+=("$argument") ;;
-    -*) fail "there is no option $argument" ;;
+    -*) fail "unknown option $argument" ;;
     *) revisions+=("$argument") ;;
     esac
 done
-case ${#revisions[@]} in 1 | 2) ;; *) fail "takes BASE [HEAD]" ;; esac
-commit() { git rev-parse --verify --quiet "$1^{commit}" || fail "there is no revision $1"; }
+case ${#revisions[@]} in 1 | 2) ;; *) fail "usage: bench_compare.sh [OPTION...] BASE [HEAD]" ;; esac
+commit() { git rev-parse --verify --quiet "$1^{commit}" || fail "unknown revision $1"; }
 base=$(commit "${revisions[0]}")
 head=$(commit "${revisions[1]:-HEAD}")
 
 tools/setup.sh
 place=$PWD/build/compare
 exec {lock}>build/compare.lock
-flock --nonblock "$lock" || fail "another comparison runs here"
+flock --nonblock "$lock" || fail "another comparison is running here"
 remove_trees() {
     for tree in "$place/base" "$place/head"; do
         git worktree remove --force "$tree" 2>/dev/null || true
@@ -53,7 +53,7 @@ trap remove_trees EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM HUP
 
-# What is alike in both trees is compiled once.
+# Sources that are the same in both trees are compiled once.
 export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$PWD}
 build() {
     local tree=$place/$1
@@ -75,7 +75,8 @@ mkdir -p "$place"
 build base "$base"
 build head "$head"
 
-# Runs the benchmarks of a program that match a filter, in both trees, into a folder; which goes first alternates.
+# Runs the benchmarks of a program that match a filter, in both trees, and writes the results to a folder. The trees
+# alternate in running first.
 run_both() {
     local folder=$1 round=$2 program=$3 filter=$4 sides=(base head) side
     ((round % 2)) || sides=(head base)
@@ -84,12 +85,12 @@ run_both() {
             --benchmark_out_format=json --benchmark_out="$(mktemp "$folder/$side.$program.XXXXXX")" \
             >/dev/null 2>"$place/run.log" || {
             cat "$place/run.log" >&2
-            fail "$program of $side does not run"
+            fail "$program of $side failed"
         }
     done
 }
 
-# What to measure: a program and a filter a line.
+# Benchmarks to measure: one program and filter per line.
 measured=$place/measured
 for program in "$place"/head/build/bench/bench_*; do
     [ ! -x "$place/base/build/bench/${program##*/}" ] || echo "${program##*/} $filter"
@@ -105,6 +106,6 @@ for pass in first again finally; do
     python3 tools/bench_compare.py "$bound" "$place/$pass" "$measured"
     [ -s "$measured" ] || exit 0
 done
-echo "More than $bound times as slow, each time:"
+echo "Slower by more than a factor of $bound in every pass:"
 cat "$measured"
 exit 1

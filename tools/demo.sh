@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs, builds, bakes a real scan and renders it; says where to look.
+# Installs dependencies, builds, bakes a real scan, renders it, and lists the files to look at.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/setup.sh
@@ -8,7 +8,7 @@ cmake --build build --target alcove_cli
 
 scan=build/meshes/meshes/armadillo.off
 mkdir -p build/demo
-build/alcove bake "$scan" -o build/demo/armadillo_ao.ply --radius 50% --rays 256
+build/alcove bake "$scan" -o build/demo/armadillo_ao.ply --radius 50% --quality fine
 view=(--radius 50% --size 720x720 --eye "110,110,-280" --look-at "2,28,0" --fov 35)
 build/alcove render "$scan" -o build/demo/armadillo_without.png "${view[@]}" --method none
 build/alcove render "$scan" -o build/demo/armadillo_with.png "${view[@]}"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Builds what writes docs/methods.md, docs/rendering.md, docs/stability.md, docs/accuracy.md and docs/performance.md with
-# their pictures, and runs it: tools/docs.sh [methods] [rendering] [stability] [accuracy] [performance]. The first three take a
-# few minutes, the others up to a quarter of an hour.
+# Builds and runs the programs that write docs/methods.md, docs/rendering.md, docs/stability.md, docs/accuracy.md and
+# docs/performance.md with their images. The first three take a few minutes, the others up to a quarter of an hour.
+#
+#     tools/docs.sh [methods] [rendering] [stability] [accuracy] [performance]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- methods rendering stability accuracy performance

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs all tests under the address and undefined-behaviour sanitizers: a quarter of an hour, so not part of every check.
+# Runs all tests under the address and undefined-behaviour sanitizers. Takes a quarter of an hour, so it is not part of
+# every check.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/setup.sh

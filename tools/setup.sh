@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs what building and testing take, from Debian's packages, and unpacks the real meshes of the demo and the
-# tests into build/meshes. Does nothing where all of it is there.
+# Installs the Debian packages that building and testing need, and unpacks the real meshes of the demo and the tests
+# into build/meshes. Does nothing if everything is present.
 #
-#     tools/setup.sh [PACKAGE...]    # these as well
+#     tools/setup.sh [PACKAGE...]    # installs these packages too
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -23,13 +23,13 @@ if [ ${#missing[@]} -eq 0 ] && [ -d build/meshes ]; then
 fi
 
 if ! command -v apt-get >/dev/null; then
-    echo "setup.sh: no apt-get here; these Debian 12 packages are needed: ${missing[*]} libcgal-demo" >&2
+    echo "setup.sh: apt-get not found; install these Debian 12 packages: ${missing[*]} libcgal-demo" >&2
     exit 1
 fi
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
-        echo "setup.sh: run it as root, or install sudo, to get these packages: ${missing[*]} libcgal-demo" >&2
+        echo "setup.sh: run as root or install sudo, to install these packages: ${missing[*]} libcgal-demo" >&2
         exit 1
     fi
     as_root=(sudo)
@@ -39,8 +39,8 @@ if [ ${#missing[@]} -gt 0 ]; then
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "${missing[@]}"
 fi
 
-# The meshes come inside the documentation of CGAL's demos. It is unpacked, not installed: some systems leave
-# documentation out of what they install.
+# The meshes are part of the documentation of CGAL's demos. The package is unpacked rather than installed, because some
+# systems do not install documentation.
 if [ ! -d build/meshes ]; then
     mkdir -p build
     scratch=$(mktemp -d "$PWD/build/unpacking.XXXXXX")

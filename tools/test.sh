@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs, builds and runs all tests.
+# Installs dependencies, builds, and runs all tests.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/setup.sh

@@ -1,14 +1,16 @@
-#include "bake_input.h"
-#include "baking.h"
+#include "bake_batch.h"
+#include "ending.h"
+#include "options.h"
 
+#include "alcove/bake/bake.h"
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
-#include "alcove/mesh/detail/source.h"
-#include "alcove/mesh/write.h"
+#include "alcove/base/detail/stopwatch.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/read.h"
+#include "alcove/mesh/tessellate.h"
 #include "alcove/vdb/vdb_file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -19,35 +21,17 @@
 namespace alcove::cli {
 namespace {
 
-struct BakeOptions {
+struct BakeVerb {
     CommonOptions common;
-    GridRequest grid;
+    BakeOptions bake;
+    AddOptions add;
     MethodRequest method;
-    BakeInputRequest source;
-    SurroundingsRequest surroundings;
-    PlanningRequest planning;
-    std::string output, attributes = "ao", normals = "auto", color, color_encoding = "srgb", write_grid;
+    std::vector<std::string> inputs, occluders;
+    std::string output, grid, write_grid, tessellate;
+    std::optional<Vec3d> up;
+    float adaptivity = 0.0f;
+    bool strict = false;
 };
-
-constexpr const char* provenance = "alcove ";
-
-NormalSource parse_normals(const std::string& text) {
-    if (text == "auto")
-        return NormalSource::automatic;
-    if (text == "file")
-        return NormalSource::file;
-    if (text == "area")
-        return NormalSource::area;
-    throw UsageError(fmt::format("--normals takes auto, file or area, not '{}'", text));
-}
-
-ColorEncoding parse_encoding(const std::string& text) {
-    if (text == "srgb")
-        return ColorEncoding::srgb;
-    if (text == "raw")
-        return ColorEncoding::raw;
-    throw UsageError(fmt::format("--color-encoding takes srgb or raw, not '{}'", text));
-}
 
 ChannelSet parse_attributes(const std::string& text) {
     ChannelSet wanted;
@@ -59,255 +43,303 @@ ChannelSet parse_attributes(const std::string& text) {
         const auto* found = std::find_if(channels.begin(), channels.end(),
                                          [&](const ChannelInfo& channel) { return channel.name == name; });
         if (found == channels.end())
-            throw UsageError(fmt::format("--attributes: there is no '{}'; there are: {}", name, known));
+            throw InputError(fmt::format("takes {}, separated by commas, not '{}'", known, name));
         wanted = wanted | found->channel;
     }
     if (wanted.empty())
-        throw UsageError("--attributes takes one or more of " + known);
+        throw InputError("takes one or more of " + known);
     return wanted;
 }
 
-std::string names_of(ChannelSet set) {
-    std::string names;
-    for (const ChannelInfo& channel : channels)
-        if (set.has(channel.channel))
-            names += fmt::format("{}{}", names.empty() ? "" : ", ", channel.name);
-    return names;
+bool is_grid(const std::string& file) {
+    return extension(file) == ".vdb";
 }
 
-/// The channels as attributes of the mesh, lengths in scene units.
-void set_attributes(Mesh& mesh, ChannelValues& values, double diagonal) {
-    for (float& thickness : values[Channel::thickness])
-        thickness = static_cast<float>(thickness * diagonal);
-    for (const ChannelInfo& channel : channels)
-        if (std::vector<float>& baked = values[channel.channel]; !baked.empty())
-            mesh.set_attribute(
-                {std::string(channel.name), static_cast<int>(channel.components), std::move(baked)});
-}
-
-/// Whether occlusion becomes colours and `quality`: as asked, else unless the input has its own; those of an
-/// earlier bake are not its own.
-bool wants_colors(const std::string& asked, ChannelSet wanted, const Mesh& mesh) {
-    if (!wanted.has(Channel::ao))
-        return false;
-    if (!asked.empty())
-        return asked == "ao";
-    if (mesh.source && mesh.source->has_comment(provenance))
-        return true;
-    return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
-}
-
-BakeTask parse_task(const BakeOptions& options) {
-    BakeTask task;
-    task.wanted = parse_attributes(options.attributes);
-    task.normals = parse_normals(options.normals);
-    task.planning = options.planning;
-    task.seed = options.method.seed.value_or(0);
-    if (!options.planning.error)
-        task.method = needed_methods(parse_method(options.method.method), task.wanted).front();
-    else if (!task.wanted.has(Channel::ao))
-        throw UsageError("--error is that of ao: it needs ao among the --attributes");
-    const MethodRequest seeded{.seed = options.method.seed};
-    task.settings = task.method ? parse_settings(options.method, *task.method, task.wanted)
-                                : parse_settings(seeded, find_method("exact"), task.wanted);
-    return task;
-}
-
-void check_output(const BakeOptions& options, ChannelSet wanted) {
-    const bool to_obj = extension(options.output) == ".obj";
-    if (to_obj && !wanted.without(Channel::ao).empty())
-        throw UsageError(options.output + ": an .obj holds ao alone, as colours: write a .ply for " +
-                         names_of(wanted.without(Channel::ao)));
-    if (options.color == "ao" && !wanted.has(Channel::ao))
+/// Checks the command line before any file is read.
+void check_usage(const BakeVerb& verb) {
+    const bool meshed = std::any_of(verb.inputs.begin(), verb.inputs.end(), is_grid);
+    if (meshed && !verb.grid.empty())
+        throw UsageError("--grid is for meshes: a .vdb input is a grid already");
+    if (!meshed && verb.adaptivity > 0.0f)
+        throw UsageError("--adaptivity is for grids: " + verb.inputs.front() + " is a mesh already");
+    if (meshed && !verb.tessellate.empty())
+        throw UsageError("--tessellate is for meshes: a .vdb input is meshed with faces of one voxel");
+    if (verb.inputs.size() > 1 && (!verb.grid.empty() || !verb.write_grid.empty()))
+        throw UsageError("--grid and --write-grid take one input: bake the inputs one at a time");
+    if (!verb.write_grid.empty())
+        check_grid_output(verb.write_grid);
+    if (verb.strict && !verb.bake.method.empty() && !verb.bake.error)
+        throw UsageError("--strict needs an --error for the --method to meet");
+    if (verb.add.color == ColorUse::ao && !verb.bake.attributes.has(Channel::ao))
         throw UsageError("--color ao needs ao among the --attributes");
-    if (options.color == "none" && to_obj)
-        throw UsageError(options.output +
-                         ": an .obj holds occlusion as colours alone: leave out --color none, or write a "
-                         ".ply");
-    if (!options.color.empty() && options.color != "ao" && options.color != "none")
-        throw UsageError(fmt::format("--color takes ao or none, not '{}'", options.color));
-    if (!can_write_mesh(options.output))
-        throw UsageError(options.output + ": meshes are written as .ply or .obj; name the output so");
-    if (!options.write_grid.empty())
-        check_grid_output(options.write_grid);
-    if (!options.write_grid.empty() && options.source.self)
-        throw UsageError("--self makes a grid for each part, --write-grid keeps one: leave out either");
+    BakeOptions options = verb.bake;
+    const GridStack any;
+    if (meshed || !verb.grid.empty())
+        options.grid = &any;
+    as_usage([&] { check(options); });
 }
 
-std::vector<Surfel> surfels_of(VoxelizedMesh& input, NormalSource normals) {
-    if (normals == NormalSource::file && input.mesh.normals.empty())
-        throw InputError(input.file + ": has no normals of its own: use --normals area");
-    std::vector<Surfel> surfels = make_surfels(input.mesh, input.triangles, input.frame, normals);
-    const auto bare =
-        std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
-    if (bare > 0)
-        input.warnings.push_back(
-            fmt::format("{} of {} vertices have no normal (no face uses them, or their faces "
-                        "cancel) and got ao = 1",
-                        grouped(static_cast<std::size_t>(bare)), grouped(surfels.size())));
-    return surfels;
+void check_format(const BakeVerb& verb, const std::string& output) {
+    const ChannelSet others = verb.bake.attributes.without(Channel::ao);
+    if (extension(output) == ".obj" && !others.empty())
+        throw UsageError(output + ": an .obj can store only ao, as colours: write a .ply for " + names_of(others));
+    if (extension(output) == ".obj" && verb.add.color == ColorUse::none)
+        throw UsageError(output + ": an .obj can store ao only as colours: leave out --color none, or write a .ply");
+    if (!can_write_mesh(output))
+        throw UsageError(output + ": meshes are written as .ply or .obj: use one of these extensions");
 }
 
-/// Puts the values on the mesh, and writes it.
-void write_baked(const BakeOptions& options, ChannelSet wanted, VoxelizedMesh& input, Baked& baked) {
-    const bool to_obj = extension(options.output) == ".obj";
-    Mesh& mesh = input.mesh;
-    ChannelValues& values = baked.values;
-    WriteOptions writing;
-    writing.comments.push_back(fmt::format(
-        "alcove {}: {} by {}, radius {:.6g}, {}", ALCOVE_VERSION, names_of(wanted), baked.choice.label(),
-        double(input.radius) * input.frame.diagonal,
-        baked.grid.levels > 0 ? fmt::format("voxel {:.6g}", baked.grid.voxel) : baked.grid.text()));
-    const bool colored = wants_colors(options.color, wanted, mesh);
-    if (!colored && to_obj)
-        throw UsageError(options.output +
-                         ": an .obj holds occlusion as colours alone, and the input has its own: add "
-                         "--color ao to replace them, or write a .ply");
-    if (colored)
-        writing.colors = grey_colors(values[Channel::ao], parse_encoding(options.color_encoding));
-    if (!to_obj) {
-        if (colored)
-            mesh.set_attribute({"quality", 1, values[Channel::ao]});
-        set_attributes(mesh, values, input.frame.diagonal);
-    }
-    for (std::string& lost : write_mesh(mesh, options.output, writing))
-        input.warnings.push_back(std::move(lost));
-}
-
-std::string rmse_text(const std::optional<double>& rmse) {
-    constexpr double resolution = 1e-3; // of a pilot
-    if (!rmse)
+std::string rmse_text(const Baked& baked) {
+    constexpr double resolution = 1e-3; // of the measured error
+    if (!baked.rmse)
         return "";
-    return *rmse < resolution ? fmt::format(", RMSE below {}", resolution)
-                              : fmt::format(", RMSE about {:.2g}", *rmse);
+    return *baked.rmse < resolution ? fmt::format(", RMSE below {}", resolution)
+                                    : fmt::format(", RMSE about {:.2g}", *baked.rmse);
 }
 
-void print_result(const BakeOptions& options, ChannelSet wanted, const VoxelizedMesh& input,
-                  const Baked& baked, std::size_t grid_bytes, const nlohmann::ordered_json& seconds) {
-    const auto or_null = [](bool there, const auto& value) {
-        return there ? nlohmann::ordered_json(value) : nullptr;
-    };
-    const double radius = double(input.radius) * input.frame.diagonal;
-    const bool has_grid = baked.grid.levels > 0;
-    if (options.common.json)
-        print_json({{"input", options.source.input},
-                    {"output", options.output},
-                    {"vertices", input.mesh.vertex_count()},
-                    {"faces", input.mesh.face_count()},
-                    {"attributes", names_of(wanted)},
-                    {"method", baked.choice.method->name},
-                    {"samples", or_null(baked.choice.samples > 0, baked.choice.samples)},
-                    {"radius", radius},
-                    {"voxel", or_null(has_grid, baked.grid.voxel)},
-                    {"levels", baked.grid.levels},
-                    {"sign", or_null(has_grid, name_of(baked.grid.sign))},
-                    {"clustered", or_null(has_grid, baked.grid.clustered)},
-                    {"grid_bytes", grid_bytes},
-                    {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
-                    {"seconds", seconds},
-                    {"peak_rss_bytes", peak_resident_bytes()},
-                    {"warnings", input.warnings}});
-    else if (!options.common.quiet)
-        fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}{}\n", options.output, names_of(wanted),
-                   grouped(input.mesh.vertex_count()), baked.choice.label(), radius, baked.grid.text(),
-                   rmse_text(baked.rmse));
-}
+/// One input, from reading to writing.
+class BakeJob {
+  public:
+    BakeJob(const BakeVerb& verb, const BatchFile& file) : verb_(verb), file_(file) {}
 
-void run(const BakeOptions& options) {
-    const ThreadLimit limit(options.common.threads);
-    BakeTask task = parse_task(options);
-    parse_encoding(options.color_encoding);
-    check_output(options, task.wanted);
-    nlohmann::ordered_json seconds;
-    GridRequest grid_request = options.grid;
-    grid_request.inside = std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
-        return channel.inside && task.wanted.has(channel.channel);
-    });
-    grid_request.cluster = options.write_grid.empty(); // one that is kept is exact
-    const bool needs_field = task.needs().field;
-    VoxelizedMesh input = read_bake_input(
-        options.source, grid_request, needs_field || !options.write_grid.empty(), options.common, seconds);
-    Stopwatch watch;
-    Surroundings surroundings(options.surroundings, input);
-    if (needs_field || !input.stack.levels.empty())
-        surroundings.voxelize(input);
-    if (!options.write_grid.empty())
-        write_grids(input.stack, options.write_grid);
-    const double other_grids = watch.lap();
-
-    task.settings.radius = input.radius;
-    const std::vector<Surfel> surfels = surfels_of(input, task.normals);
-    Baked baked;
-    {
-        ProgressMeter meter(options.common.progress_mode(), "baking");
-        if (!task.method)
-            baked = bake_by_plan(input, surroundings, task, surfels, options.common, std::ref(meter));
-        else if (options.source.self)
-            baked = bake_parts(input, surroundings, task, std::ref(meter));
-        else
-            baked = bake_whole(input, surroundings, task, surfels, std::ref(meter));
+    void run(const BakeProgress& progress) {
+        BakeOptions options = verb_.bake;
+        options.progress = progress;
+        if (const std::optional<double> left = seconds_left())
+            options.time_limit = left;
+        Stopwatch watch;
+        read(options);
+        seconds_["read"] = watch.lap();
+        const Baked baked = bake(mesh_, options);
+        seconds_["grid"] = baked.seconds.grid;
+        seconds_["occlusion"] = baked.seconds.occlusion;
+        seconds_["pilot"] = baked.seconds.pilot;
+        if (verb_.strict && baked.missed())
+            throw std::runtime_error(
+                fmt::format("{}: misses the error of {:g}: the measured RMSE is {:.2g}, and nothing is written",
+                            file_.input, *baked.target, *baked.rmse));
+        watch.lap();
+        write(baked);
+        seconds_["write"] = watch.lap();
+        warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
+        warnings_.insert(warnings_.begin(), mesh_.warnings.begin(), mesh_.warnings.end());
+        print_warnings(warnings_, verb_.common);
+        print(baked);
     }
-    seconds["grid"] = seconds["grid"].get<double>() + other_grids + baked.grid_seconds;
-    seconds["occlusion"] = watch.lap() - baked.grid_seconds - baked.pilot_seconds;
-    seconds["pilot"] = baked.pilot_seconds;
-    write_baked(options, task.wanted, input, baked);
-    seconds["write"] = watch.lap();
-    print_warnings(input.warnings, options.common);
-    print_result(options, task.wanted, input, baked, baked.grid.bytes + surroundings.bytes(), seconds);
+
+  private:
+    void read(BakeOptions& options) {
+        if (is_grid(file_.input)) {
+            grid_ = read_grids(file_.input);
+            try {
+                mesh_ = mesh_zero_surface(grid_, verb_.adaptivity);
+            } catch (const InputError& error) {
+                throw InputError(file_.input + ": " + error.what());
+            }
+            mesh_.name = file_.input;
+        } else {
+            mesh_ = read_mesh(file_.input);
+            if (!verb_.grid.empty())
+                grid_ = read_grids(verb_.grid);
+        }
+        if (!grid_.levels.empty())
+            options.grid = &grid_;
+        if (verb_.tessellate == "auto")
+            mesh_ = tessellate_for_ao(mesh_, options);
+        else if (!verb_.tessellate.empty()) {
+            const double diagonal = frame_of(mesh_.box()).diagonal;
+            mesh_ = tessellate(mesh_, {.longest = Length(verb_.tessellate).to_unit(diagonal) * diagonal});
+        }
+    }
+
+    void write(const Baked& baked) {
+        if (!verb_.write_grid.empty())
+            write_grids(baked.grid, verb_.write_grid);
+        if (!add(mesh_, baked, verb_.add) && extension(file_.output) == ".obj")
+            throw UsageError(file_.output +
+                             ": an .obj can store ao only as colours, but the input has its own: add --color "
+                             "ao to replace them, or write a .ply");
+        for (std::string& lost : write_mesh(mesh_, file_.output))
+            warnings_.push_back(std::move(lost));
+    }
+
+    void print(const Baked& baked) const {
+        const auto or_null = [](bool there, const auto& value) {
+            return there ? nlohmann::ordered_json(value) : nullptr;
+        };
+        const GridSummary& grid = baked.grid_summary;
+        if (verb_.common.json)
+            print_json({{"input", file_.input},
+                        {"output", file_.output},
+                        {"vertices", mesh_.vertex_count()},
+                        {"faces", mesh_.face_count()},
+                        {"attributes", names_of(baked.attributes)},
+                        {"method", baked.method.substr(0, baked.method.find(':'))},
+                        {"samples", or_null(baked.samples.has_value(), baked.samples.value_or(0))},
+                        {"reason", or_null(!baked.reason.empty(), baked.reason)},
+                        {"radius", baked.radius},
+                        {"voxel", or_null(grid.levels > 0, grid.voxel)},
+                        {"levels", grid.levels},
+                        {"sign", or_null(grid.levels > 0, name_of(grid.sign))},
+                        {"clustered", or_null(grid.levels > 0, grid.clustered)},
+                        {"grid_bytes", grid.bytes},
+                        {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
+                        {"seconds", seconds_},
+                        {"peak_rss_bytes", peak_resident_bytes()},
+                        {"warnings", warnings_}},
+                       verb_.inputs.size() > 1);
+        else if (!verb_.common.quiet)
+            fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}{}{}\n", file_.output, names_of(baked.attributes),
+                       grouped(mesh_.vertex_count()), baked.method, baked.radius, grid.text(), rmse_text(baked),
+                       baked.reason.empty() ? "" : fmt::format(" (without the field: {})", baked.reason));
+    }
+
+    const BakeVerb& verb_;
+    const BatchFile& file_;
+    Mesh mesh_;
+    GridStack grid_;
+    nlohmann::ordered_json seconds_;
+    std::vector<std::string> warnings_;
+};
+
+void run(BakeVerb& verb) {
+    verb.bake.threads = verb.common.threads;
+    verb.bake.method = verb.method.method;
+    verb.bake.parameters = verb.method.parameters;
+    verb.bake.seed = verb.method.seed.value_or(0);
+    verb.bake.up = verb.up.value_or(verb.bake.up);
+    verb.bake.keep_grid = !verb.write_grid.empty();
+    check_usage(verb);
+    const std::vector<BatchFile> files = batch_files(verb.inputs, verb.output);
+    for (const BatchFile& file : files)
+        check_format(verb, file.output);
+    for (const std::string& occluder : verb.occluders) {
+        verb.bake.occluders.push_back(read_mesh(occluder));
+        for (const std::string& warning : verb.bake.occluders.back().warnings)
+            print_warnings({occluder + ": " + warning}, verb.common);
+    }
+    run_batch(files, verb.common,
+              [&](const BatchFile& file, const BakeProgress& progress) { BakeJob(verb, file).run(progress); });
 }
+
+void add_files(CLI::App& app, BakeVerb& verb) {
+    app.add_option("input", verb.inputs,
+                   "Meshes to bake (ply, obj, off, stl), or level sets (vdb) to mesh at their zero surface first")
+        ->required();
+    app.add_option("-o,--output", verb.output, "Mesh to write (ply, obj), or a folder for one output per input")
+        ->required();
+}
+
+/// The radius, the accuracy and the method.
+void add_planning(CLI::App& app, BakeVerb& verb) {
+    BakeOptions& bake = verb.bake;
+    add_radius_option(app, bake.radius, "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), inf");
+    CLI::Option* quality = add_choice<Quality>(
+        app, "--quality", bake.quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
+        "draft: RMSE 0.05 against exact rays; good: 0.02; fine: 0.005. The planner picks the cheapest method");
+    quality->type_name("NAME")->default_str("good");
+    app.add_option("--error", bake.error, "Any other RMSE to meet, at least 0.001 and below 1")
+        ->excludes(quality)
+        ->type_name("E");
+    add_choice<Via>(app, "--via", bake.via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}},
+                    "Methods to choose from. grid: those on level sets, and exact rays only if level sets would cost "
+                    "far more; auto: all; mesh: exact rays")
+        ->type_name("NAME")
+        ->default_str("grid");
+    app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error is not met");
+    add_method_options(app, verb.method,
+                       "Bake with this method: with its defaults, or with as many rays or samples as --error needs: ");
+    app.add_flag_callback(
+        "--no-pilot", [&bake] { bake.pilot = false; }, "Do not measure the error of the bake at some of its vertices");
+}
+
+/// The attributes, and the vertices to bake.
+void add_surface(CLI::App& app, BakeVerb& verb) {
+    BakeOptions& bake = verb.bake;
+    app.add_option_function<std::string>(
+           "--attributes", [&bake](const std::string& names) { bake.attributes = parse_attributes(names); },
+           "What to bake, separated by commas: ao, ao_short, ao_long (multiscale), convexity, bent_normal, thickness")
+        ->check(parsable(parse_attributes))
+        ->type_name("NAMES")
+        ->default_str("ao");
+    add_choice<NormalSource>(
+        app, "--normals", bake.normals,
+        {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"area", NormalSource::area}},
+        "auto: those of the file, or area-weighted ones if it has none; file; area")
+        ->type_name("SOURCE")
+        ->default_str("auto");
+    app.add_option("--tessellate", verb.tessellate,
+                   "Split faces first, so that ao can vary across them: edges longer than LEN, or auto: wherever ao "
+                   "differs from its interpolation by more than the error")
+        ->check(parsable([](const std::string& text) {
+            if (text != "auto" && Length(text).unit == Length::Unit::voxels)
+                throw InputError("takes auto, 0.2 (scene units) or 10%, not vx");
+        }))
+        ->type_name("LEN");
+}
+
+void add_grids(CLI::App& app, BakeVerb& verb) {
+    add_grid_options(app, verb.bake.voxel, verb.bake.sign);
+    app.add_option("--grid", verb.grid, "Level set of the mesh (vdb), used instead of voxelizing")->type_name("FILE");
+    app.add_option("--adaptivity", verb.adaptivity,
+                   "How to mesh a grid, from 0 (quads only) to 1 (large faces where the surface is flat)")
+        ->check(CLI::Range(0.0, 1.0).description(""))
+        ->type_name("A")
+        ->capture_default_str();
+    app.add_option(
+           "--write-grid", verb.write_grid,
+           "Also write the level sets to a .vdb. They are built from all triangles; without this option, vertices "
+           "closer than a voxel may be clustered")
+        ->type_name("FILE");
+}
+
+void add_occluders(CLI::App& app, BakeVerb& verb) {
+    app.add_flag("--self", verb.bake.self, "Each connected part is occluded only by itself, --occluder and --ground");
+    app.add_option("--occluder", verb.occluders,
+                   "Mesh that also occludes, in the same coordinates; repeat the option for more")
+        ->option_text("MESH");
+    app.add_flag("--ground", verb.bake.ground, "The plane through the lowest vertex also occludes");
+    add_triple(app, "--up", verb.up, Triple::direction, "Up direction for --ground")->default_str("0,1,0");
+}
+
+void add_colors(CLI::App& app, BakeVerb& verb) {
+    add_choice<ColorUse>(
+        app, "--color", verb.add.color, {{"ao", ColorUse::ao}, {"none", ColorUse::none}},
+        "ao: also write ao as vertex colours and `quality`; none: do not. Default: ao, unless the input has either")
+        ->type_name("WHAT");
+    add_choice<ColorEncoding>(app, "--color-encoding", verb.add.encoding,
+                              {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}}, "srgb, or raw (255 x ao)")
+        ->type_name("CODE")
+        ->default_str("srgb");
+}
+
+constexpr const char* examples = "Examples:\n"
+                                 "  alcove bake scan.ply -o scan_ao.ply\n"
+                                 "  alcove bake part.stl -o part_ao.ply --radius 5% --quality fine\n"
+                                 "  alcove bake parts/*.stl -o baked/\n"
+                                 "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n"
+                                 "  alcove bake scan.ply -o masks.ply --attributes ao,convexity,bent_normal,thickness\n"
+                                 "  alcove bake chair.ply -o chair_ao.ply --ground --up 0,0,1 --occluder table.ply\n"
+                                 "  alcove bake level.obj -o level_ao.ply --tessellate auto\n"
+                                 "  alcove bake kit.obj -o kit_ao.obj --self\n"
+                                 "  alcove bake level_set.vdb -o level_set_ao.ply --adaptivity 0.2\n"
+                                 "  alcove bake scan.ply -o scan_ao.ply --write-grid scan.vdb\n"
+                                 "  alcove bake scan.ply -o scan_ao.ply --grid scan.vdb --method classic\n";
 
 }
 
 void add_bake(CLI::App& program) {
-    auto* verb =
-        program.add_subcommand("bake", "Compute ambient occlusion and masks at the vertices of a mesh");
-    auto options = std::make_shared<BakeOptions>();
-    verb->add_option("input", options->source.input,
-                     "Mesh to bake (ply, obj, off, stl), or grid (vdb) to mesh at its zero surface first")
-        ->required();
-    verb->add_option("-o,--output", options->output, "Mesh to write (ply, obj)")->required();
-    add_radius_option(*verb, options->grid,
-                      "How far occluders count: 0.2 (scene units), 10% (of the diagonal), inf");
-    add_method_options(*verb, options->method, "Estimator: ");
-    verb->add_option("--attributes", options->attributes,
-                     "What to bake, with commas between: ao, ao_short, ao_long (multiscale), convexity, "
-                     "bent_normal (traced, guided, exact: of their rays; others: of four probes), thickness")
-        ->type_name("NAMES")
-        ->capture_default_str();
-    verb->add_option("--normals", options->normals, "auto: the file's, else area-weighted; file; area")
-        ->type_name("SOURCE")
-        ->capture_default_str();
-    add_planning_options(*verb, options->planning);
-    add_grid_options(*verb, options->grid);
-    add_bake_input_options(*verb, options->source);
-    add_surroundings_options(*verb, options->surroundings);
-    verb->add_option("--write-grid", options->write_grid,
-                     "Keep the level sets in a .vdb: of all triangles, where a bake otherwise leaves out "
-                     "what its voxels cannot tell")
-        ->type_name("FILE");
-    verb->add_option(
-            "--color", options->color,
-            "ao: as vertex colours and `quality` too; none. Default: ao, unless the input has either")
-        ->type_name("WHAT");
-    verb->add_option("--color-encoding", options->color_encoding, "srgb, or raw (255 x ao)")
-        ->type_name("CODE")
-        ->capture_default_str();
-    add_common_options(*verb, options->common);
-    verb->footer("Examples:\n"
-                 "  alcove bake scan.ply -o scan_ao.ply\n"
-                 "  alcove bake part.stl -o part_ao.ply --radius 5% --rays 256\n"
-                 "  alcove bake scan.obj -o scan_ao.obj --method classic --voxel 0.2%\n"
-                 "  alcove bake scan.ply -o scan_ao.ply --error 0.02\n"
-                 "  alcove bake scan.ply -o masks.ply --attributes ao,convexity,bent_normal,thickness\n"
-                 "  alcove bake chair.ply -o chair_ao.ply --ground --up 0,0,1 --occluder table.ply\n"
-                 "  alcove bake kit.obj -o kit_ao.obj --self\n"
-                 "  alcove bake level_set.vdb -o level_set_ao.ply --adaptivity 0.2\n"
-                 "  alcove bake scan.ply -o scan_ao.ply --write-grid scan.vdb\n"
-                 "  alcove bake scan.ply -o scan_ao.ply --grid scan.vdb --method classic\n");
-    verb->callback([options, verb] {
-        check_planning(options->planning, *verb);
-        run(*options);
-    });
+    auto* app = program.add_subcommand("bake", "Compute ambient occlusion and masks at the vertices of meshes");
+    auto verb = std::make_shared<BakeVerb>();
+    add_files(*app, *verb);
+    add_planning(*app, *verb);
+    add_surface(*app, *verb);
+    add_grids(*app, *verb);
+    add_occluders(*app, *verb);
+    add_colors(*app, *verb);
+    add_common_options(*app, verb->common);
+    app->footer(examples);
+    app->callback([verb] { run(*verb); });
 }
 
 }

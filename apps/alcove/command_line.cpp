@@ -39,15 +39,15 @@ std::string explain_verb(const CLI::App& program, const std::vector<std::string>
     const std::vector<std::string> verbs = verbs_of(program);
     const auto typed = std::find_if_not(words.begin(), words.end(), is_option);
     if (typed != words.end())
-        return fmt::format("there is no verb '{}'{}; there are: {}", *typed, guess(*typed, verbs),
+        return fmt::format("there is no verb '{}'{}; the verbs are: {}", *typed, guess(*typed, verbs),
                            fmt::join(verbs, ", "));
     if (!words.empty())
-        return fmt::format("{} is no option of alcove itself; name a verb: {}", words.front(),
+        return fmt::format("{} is not an option of alcove itself; name a verb: {}", words.front(),
                            fmt::join(verbs, ", "));
     return fmt::format("a verb is needed: {}", fmt::join(verbs, ", "));
 }
 
-/// "Could not convert: --threads = -1", as CLI11 says it.
+/// Rephrases a message of CLI11 such as "Could not convert: --threads = -1".
 std::string explain_conversion(const CLI::App& verb, const std::string& said) {
     static const std::map<std::string, std::string> kinds{
         {"UINT", "a whole number, 0 or more"}, {"N", "a whole number in its range"}, {"DEG", "a number"}};
@@ -57,8 +57,7 @@ std::string explain_conversion(const CLI::App& verb, const std::string& said) {
     const std::string option = said.substr(name, equals - name);
     const CLI::Option* known = verb.get_option_no_throw(option);
     const auto kind = kinds.find(known ? known->get_type_name() : "");
-    return fmt::format("{} takes {}, not '{}'", option,
-                       kind == kinds.end() ? "a value of another kind" : kind->second,
+    return fmt::format("{} takes {}, not '{}'", option, kind == kinds.end() ? "a value of another type" : kind->second,
                        said.substr(equals + 3));
 }
 
@@ -68,16 +67,14 @@ std::string nearest(std::string_view typed, const std::vector<std::string>& name
     std::string best;
     std::size_t fewest = typed.size() / 3 + 1;
     for (const std::string& name : names)
-        if (const std::size_t count = edit_distance(typed, name);
-            count <= fewest && (best.empty() || count < fewest)) {
+        if (const std::size_t count = edit_distance(typed, name); count <= fewest && (best.empty() || count < fewest)) {
             fewest = count;
             best = name;
         }
     return best;
 }
 
-std::string explain(const CLI::App& program, const CLI::ParseError& error,
-                    const std::vector<std::string>& words) {
+std::string explain(const CLI::App& program, const CLI::ParseError& error, const std::vector<std::string>& words) {
     const std::vector<CLI::App*> parsed = program.get_subcommands();
     if (parsed.empty())
         return explain_verb(program, words) + "; see alcove --help";
@@ -89,18 +86,17 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error,
     if (unknown != extra.end()) {
         const std::string name = unknown->substr(0, unknown->find('='));
         if (verb.get_option_no_throw(name) != nullptr)
-            return fmt::format("{0} belongs behind the verb: alcove {1} ... {0}; {2}", name, verb.get_name(),
-                               help);
-        return fmt::format("{} has no option {}{}; {}", verb.get_name(), name, guess(name, options_of(verb)),
-                           help);
+            return fmt::format("{0} goes after the verb: alcove {1} ... {0}; {2}", name, verb.get_name(), help);
+        return fmt::format("{} has no option {}{}; {}", verb.get_name(), name, guess(name, options_of(verb)), help);
     }
     const std::string said = error.what();
     const std::string option = said.substr(0, said.find(':'));
+    if (error.get_name() == "ValidationError") // "--voxel: takes ..." from our own validators
+        return fmt::format("{}{}; {}", option, said.substr(std::min(option.size() + 1, said.size())), help);
     if (error.get_name() == "ConversionError")
         return fmt::format("{}; {}", explain_conversion(verb, said), help);
     if (error.get_name() == "ArgumentMismatch")
-        return fmt::format("{} {}; {}", option,
-                           said.ends_with("missing") ? "needs a value behind it" : "is given more than once",
+        return fmt::format("{} {}; {}", option, said.ends_with("missing") ? "needs a value" : "is given more than once",
                            help);
     if (error.get_name() == "RequiredError" && !extra.empty())
         return fmt::format("{} (did you mean -o {}?); {}", said, extra.front(), help);

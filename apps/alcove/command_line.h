@@ -1,4 +1,4 @@
-/// What is wrong with a command line, said in one line with the mend.
+/// Explains errors of the command line in one line with a fix.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,12 +9,11 @@
 
 namespace alcove::cli {
 
-/// The message for an error of parsing `words`, the arguments without the program's name.
-std::string explain(const CLI::App& program, const CLI::ParseError& error,
-                    const std::vector<std::string>& words);
+/// The message for a parsing error. `words` are the arguments without the program name.
+std::string explain(const CLI::App& program, const CLI::ParseError& error, const std::vector<std::string>& words);
 
-/// The name that takes the fewest typing mistakes to become `typed`; empty where
-/// none is near enough to be meant.
+/// The name with the smallest edit distance from `typed`; empty if that exceeds a third of the length of `typed` plus
+/// 1.
 std::string nearest(std::string_view typed, const std::vector<std::string>& names);
 
 }

@@ -21,10 +21,10 @@
 namespace alcove::cli {
 namespace {
 
-std::array<char, 200> late{}; // what to say when time is up: a handler may not format it
+std::array<char, 200> time_limit_message{}; // formatted in advance, as a signal handler must not do so
 
 using Clock = std::chrono::steady_clock;
-std::optional<std::pair<Clock::time_point, double>> limited; // since when, and to how many seconds
+std::optional<std::pair<Clock::time_point, double>> time_limit; // start and seconds
 
 void handle(int signal, void (*handler)(int)) {
     struct sigaction action {};
@@ -35,7 +35,7 @@ void handle(int signal, void (*handler)(int)) {
 
 extern "C" void on_interrupt(int signal) {
     remove_unfinished_files();
-    // Whoever started the program is to see what ended it.
+    // Raise the signal again, so that the parent process sees it.
     handle(signal, SIG_DFL);
     sigset_t unblocked;
     sigemptyset(&unblocked);
@@ -44,17 +44,17 @@ extern "C" void on_interrupt(int signal) {
     (void)::raise(signal);
 }
 
-/// The last words of the program: nothing is destroyed any more, and nothing allocated.
-[[noreturn]] void give_up(const char* words) {
+/// Prints a message and exits without running destructors or allocating memory.
+[[noreturn]] void exit_with(const char* message) {
     remove_unfinished_files();
-    for (const char* part : {bar_is_shown ? clear_bar.data() : "", "alcove: ", words, "\n"})
+    for (const char* part : {bar_is_shown ? clear_bar.data() : "", "alcove: ", message, "\n"})
         if (::write(STDERR_FILENO, part, std::strlen(part)) < 0)
             break;
     ::_exit(1);
 }
 
 extern "C" void on_alarm(int) {
-    give_up(late.data());
+    exit_with(time_limit_message.data());
 }
 
 [[noreturn]] void on_terminate() {
@@ -62,21 +62,20 @@ extern "C" void on_alarm(int) {
         if (const std::exception_ptr thrown = std::current_exception())
             std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-        give_up(out_of_memory);
+        exit_with(out_of_memory);
     } catch (...) {
-        give_up("a library gave up where nothing could be mended");
+        exit_with("a library failed with an exception that cannot be handled");
     }
-    give_up("ended for no reason that is known");
+    exit_with("terminated for an unknown reason");
 }
 
 }
 
 void end_cleanly() {
-    for (const int signal :
-         {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGSEGV, SIGBUS, SIGILL, SIGFPE}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGSEGV, SIGBUS, SIGILL, SIGFPE}) {
         struct sigaction before {};
         ::sigaction(signal, nullptr, &before);
-        if (before.sa_handler == SIG_DFL) // else ignored, as under nohup, or a sanitizer's
+        if (before.sa_handler == SIG_DFL) // else ignored, as under nohup, or handled by a sanitizer
             handle(signal, on_interrupt);
     }
     handle(SIGXFSZ, SIG_IGN);
@@ -84,12 +83,11 @@ void end_cleanly() {
 }
 
 void limit_time(double seconds) {
-    limited.emplace(Clock::now(), seconds);
-    std::snprintf(
-        late.data(), late.size(),
-        "stopped after the %g s of --time-limit: allow more, or ask for less (fewer --rays, a larger "
-        "--error or --voxel, a smaller --size)",
-        seconds);
+    time_limit.emplace(Clock::now(), seconds);
+    std::snprintf(time_limit_message.data(), time_limit_message.size(),
+                  "stopped after the %g s of --time-limit: allow more, or reduce the work (fewer --rays, a larger "
+                  "--error or --voxel, a smaller --size)",
+                  seconds);
     handle(SIGALRM, on_alarm);
     const double whole = std::floor(seconds);
     itimerval timer{};
@@ -100,12 +98,11 @@ void limit_time(double seconds) {
     ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-std::optional<TimeLimit> time_limit() {
-    if (!limited)
+std::optional<double> seconds_left() {
+    if (!time_limit)
         return {};
-    const auto& [since, seconds] = *limited;
-    const double gone = std::chrono::duration<double>(Clock::now() - since).count();
-    return TimeLimit{seconds, std::max(seconds - gone, 0.0)};
+    const auto& [since, seconds] = *time_limit;
+    return std::max(seconds - std::chrono::duration<double>(Clock::now() - since).count(), 0.0);
 }
 
 }

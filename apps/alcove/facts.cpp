@@ -37,8 +37,8 @@ void Facts::add_box(const Box& box) {
         add("box", nullptr, "empty");
     } else {
         add("box", {{"min", triple(box.min)}, {"max", triple(box.max)}},
-            fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", box.min.x, box.min.y,
-                        box.min.z, box.max.x, box.max.y, box.max.z));
+            fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", box.min.x, box.min.y, box.min.z,
+                        box.max.x, box.max.y, box.max.z));
         add("size", triple(size), fmt::format("{:.6g} x {:.6g} x {:.6g}", size.x, size.y, size.z));
     }
 }

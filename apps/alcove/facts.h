@@ -1,4 +1,4 @@
-/// What the info verb has to say: the same facts as JSON and as aligned lines.
+/// The output of the info verb: the same facts as JSON and as aligned lines.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -12,15 +12,16 @@ namespace alcove::cli {
 
 class Facts {
   public:
-    /// A fact for programs only; the one named `kind` heads the lines.
+    /// Adds a fact to the JSON only. The fact `kind` is also the heading of the text.
     void add(const std::string& key, nlohmann::ordered_json value) { json_[key] = std::move(value); }
-    /// One that people read as `lines`, under the key with its underscores as spaces; no lines, no fact.
+    /// Adds a fact with its lines of text. The label is the key with spaces for underscores; without lines, the text
+    /// omits the fact.
     void add(const std::string& key, nlohmann::ordered_json value, const std::vector<std::string>& lines);
     void add(const std::string& key, nlohmann::ordered_json value, const std::string& line) {
         add(key, std::move(value), std::vector{line});
     }
     void add_count(const std::string& key, std::size_t count);
-    /// Box and size.
+    /// Adds the facts `box` and `size`.
     void add_box(const Box& box);
 
     nlohmann::ordered_json json(const std::string& file) const;

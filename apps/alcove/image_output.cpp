@@ -1,6 +1,6 @@
 #include "image_output.h"
 
-#include "common.h"
+#include "options.h"
 
 #include "alcove/base/detail/atomic_file.h"
 
@@ -14,7 +14,7 @@
 namespace alcove::cli {
 namespace {
 
-/// Those that are named; none where no name is given. \throw UsageError for an unknown one.
+/// The named passes; none if the list is empty. \throw UsageError for an unknown name.
 PassSet parse_passes(const std::vector<std::string>& names) {
     PassSet wanted;
     for (const std::string& name : names) {
@@ -29,14 +29,13 @@ PassSet parse_passes(const std::vector<std::string>& names) {
             all.reserve(all_passes.size());
             for (const PassInfo& info : all_passes)
                 all.push_back(info.name);
-            throw UsageError(
-                fmt::format("there is no pass '{}'; there are: {}, all", name, fmt::join(all, ", ")));
+            throw UsageError(fmt::format("there is no pass '{}'; the passes are: {}, all", name, fmt::join(all, ", ")));
         }
     }
     return wanted;
 }
 
-/// One of the passes.
+/// The first of the passes in the order of `all_passes`.
 Pass first(PassSet wanted) {
     return std::find_if(all_passes.begin(), all_passes.end(),
                         [&](const PassInfo& info) { return wanted.has(info.pass); })
@@ -47,29 +46,28 @@ Pass first(PassSet wanted) {
 
 void add_image_options(CLI::App& verb, ImageRequest& request) {
     verb.add_option("-o,--output", request.file, "Image to write (exr, or png of one pass)")->required();
-    verb.add_option(
-            "--pass", request.passes,
-            "What the image shows: beauty, ao, depth, normal (of an exr, these four by default), position, "
-            "convexity, shadow, steps, object, or all; a png shows one. Give it again for more")
+    verb.add_option("--pass", request.passes,
+                    "What the image shows: beauty, ao, depth, normal (of an exr, these four by default), position, "
+                    "convexity, shadow, steps, object, or all; a png shows one. Repeat the option for more")
         ->option_text("NAME");
-    verb.add_option("--precision", request.precision, "Of the colours of an exr: half or float")
+    add_choice<Precision>(verb, "--precision", request.precision,
+                          {{"half", Precision::half}, {"float", Precision::single}},
+                          "Precision of the colours in an exr: half or float")
         ->type_name("NAME")
-        ->capture_default_str();
+        ->default_str("half");
 }
 
 ImageOutput::ImageOutput(const ImageRequest& request) : file_(request.file) {
     const std::string format = extension(file_);
     if (format != ".exr" && format != ".png")
-        throw UsageError(fmt::format("{}: an image is written as .exr or .png; name the output so", file_));
+        throw UsageError(fmt::format("{}: images are written as .exr or .png: use one of these extensions", file_));
     png_ = format == ".png";
     passes_ = parse_passes(request.passes);
     if (passes_.empty())
         passes_ = png_ ? PassSet(Pass::beauty) : standard_passes;
     if (png_ && passes_ != first(passes_))
-        throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which holds all");
-    if (request.precision != "half" && request.precision != "float")
-        throw UsageError(fmt::format("--precision takes half or float, not '{}'", request.precision));
-    precision_ = request.precision == "half" ? Precision::half : Precision::single;
+        throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which can store several");
+    precision_ = request.precision;
     const AtomicFile probe(file_);
 }
 

@@ -1,4 +1,4 @@
-/// The image file that a verb writes: its name, what it shows and how.
+/// The image file that a verb writes: its name, passes and precision.
 #pragma once
 
 #include "alcove/render/camera.h"
@@ -16,7 +16,7 @@ namespace alcove::cli {
 struct ImageRequest {
     std::string file; ///< .exr or .png
     std::vector<std::string> passes;
-    std::string precision = "half";
+    Precision precision = Precision::half;
 };
 
 /// Adds -o, --pass and --precision.
@@ -24,16 +24,16 @@ void add_image_options(CLI::App& verb, ImageRequest& request);
 
 class ImageOutput {
   public:
-    /// \throw UsageError for what no image can be; IoError where none can be written: before any work.
+    /// \throw UsageError for an unknown extension or pass, or several passes in a .png; IoError if the file cannot be
+    /// written.
     explicit ImageOutput(const ImageRequest& request);
 
     PassSet passes() const { return passes_; }
-    /// The name of a frame of a sequence, counted from 1: its number before the extension, as wide as that of the last
-    /// one, but at least four digits.
+    /// The file name of a frame, counted from 1. The number comes before the extension and has as many digits as that
+    /// of the last frame, but at least four.
     std::string frame_file(int frame, int frames) const;
-    /// Written whole or not at all. `comments` go where the file has a place for them. \throw IoError.
-    void write(const Image& image, const std::string& file, const Camera& camera,
-               const std::string& comments) const;
+    /// Writes the file completely or not at all. `comments` are stored in an .exr only. \throw IoError.
+    void write(const Image& image, const std::string& file, const Camera& camera, const std::string& comments) const;
 
   private:
     std::string file_;

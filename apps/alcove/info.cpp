@@ -1,5 +1,5 @@
-#include "common.h"
 #include "facts.h"
+#include "options.h"
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/errors.h"
@@ -10,7 +10,6 @@
 #include "alcove/render/renderable.h"
 #include "alcove/vdb/vdb_file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -51,14 +50,14 @@ Facts facts_of_grid(const std::string& file) {
     facts.add("written_by_alcove", stack.creator == "Alcove");
     const bool sheet = stack.sign == Sign::sheet;
     facts.add("sign", sheet ? "sheet" : "solid",
-              sheet ? "negative in a thin layer behind the faces only" : "negative inside");
+              sheet ? "negative only in a thin layer behind the faces" : "negative inside");
     try {
-        // Of the cells that outline() looks at.
+        // The size of the cells that outline() samples.
         const double cell = scale / 64;
         facts.add_box(outline(LevelStack(stack), stack.frame).box);
         facts.add("box_tolerance", cell, fmt::format("{:.3g}", cell));
     } catch (const InputError&) {
-        facts.add("box", nullptr, "none: no surface, the values never change their sign");
+        facts.add("box", nullptr, "none: no value changes sign, so there is no surface");
     }
     auto levels = nlohmann::ordered_json::array();
     std::vector<std::string> lines;
@@ -73,7 +72,7 @@ Facts facts_of_grid(const std::string& file) {
                                     grouped(level.active_voxels), static_cast<double>(level.bytes) / 1e6,
                                     level.outer_band, level.outer_band * voxel));
     }
-    facts.add("diagonal", scale); // the unit of percentages, of the mesh where Alcove wrote the file
+    facts.add("diagonal", scale); // the unit of percentages; in files of Alcove, that of the mesh
     facts.add("levels", levels, lines);
     facts.add("warnings", stack.warnings, stack.warnings);
     return facts;
@@ -123,10 +122,10 @@ void run(const Options& options) {
 }
 
 void add_info(CLI::App& program) {
-    auto* verb = program.add_subcommand("info", "Tell what a mesh, grid or image holds; a mesh is diagnosed");
+    auto* verb =
+        program.add_subcommand("info", "Describe the contents of a mesh, grid or image; meshes are also diagnosed");
     auto options = std::make_shared<Options>();
-    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl), grid (vdb) or image (exr, png)")
-        ->required();
+    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl), grid (vdb) or image (exr, png)")->required();
     add_common_options(*verb, options->common);
     verb->footer("Example: alcove info model.ply");
     verb->callback([options] { run(*options); });

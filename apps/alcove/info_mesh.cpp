@@ -23,8 +23,7 @@ void add_faces(Facts& facts, const Diagnosis& diagnosis) {
     for (int kind = 0; kind < 3; ++kind)
         if (counts[kind] > 0)
             kinds.push_back(counted(counts[kind], names[kind][0], names[kind][1]));
-    facts.add("faces", diagnosis.faces,
-              fmt::format("{}: {}", grouped(diagnosis.faces), fmt::join(kinds, ", ")));
+    facts.add("faces", diagnosis.faces, fmt::format("{}: {}", grouped(diagnosis.faces), fmt::join(kinds, ", ")));
     facts.add("triangles", diagnosis.triangles);
     facts.add("quads", diagnosis.quads);
     facts.add("larger_polygons", diagnosis.larger_polygons);
@@ -32,14 +31,14 @@ void add_faces(Facts& facts, const Diagnosis& diagnosis) {
 
 void add_attributes(Facts& facts, const Mesh& mesh) {
     const bool normals = !mesh.normals.empty();
-    facts.add("normals", normals, normals ? "one a vertex" : "none; area-weighted ones will be used");
+    facts.add("normals", normals, normals ? "one per vertex" : "none; area-weighted ones will be used");
     const auto where = [&](const char* key, bool vertex, bool other, const char* name) {
         facts.add(key,
                   vertex  ? nlohmann::ordered_json("vertex")
                   : other ? nlohmann::ordered_json(name)
                           : nullptr,
-                  vertex  ? "one a vertex"
-                  : other ? fmt::format("one a {}", name)
+                  vertex  ? "one per vertex"
+                  : other ? fmt::format("one per {}", name)
                           : "none");
     };
     where("uvs", !mesh.vertex_uvs.empty(), !mesh.corner_uvs.empty(), "corner");
@@ -54,13 +53,11 @@ void add_ply(Facts& facts, const PlyDocument& document) {
         std::vector<std::string> names;
         for (const PlyProperty& property : element.properties) {
             const std::string type{name_of(property.type)};
-            properties.push_back(
-                {{"name", property.name}, {"type", type}, {"list", property.count_type.has_value()}});
+            properties.push_back({{"name", property.name}, {"type", type}, {"list", property.count_type.has_value()}});
             names.push_back(property.name);
         }
         elements.push_back({{"name", element.name}, {"count", element.count}, {"properties", properties}});
-        lines.push_back(
-            fmt::format("{} {}: {}", grouped(element.count), element.name, fmt::join(names, " ")));
+        lines.push_back(fmt::format("{} {}: {}", grouped(element.count), element.name, fmt::join(names, " ")));
     }
     facts.add("elements", elements, lines);
     facts.add("comments", document.comments, document.comments);
@@ -103,7 +100,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
     facts.add("diagnosis", numbers);
     facts.add("parts", d.components,
               d.closed_components > 0
-                  ? fmt::format("{}, {} of them closed, of volume {:.6g}", grouped(d.components),
+                  ? fmt::format("{}, {} of them closed, with a volume of {:.6g}", grouped(d.components),
                                 d.closed_components == d.components ? "all" : grouped(d.closed_components),
                                 d.signed_volume)
                   : fmt::format("{}, none of them closed", grouped(d.components)));
@@ -111,8 +108,8 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
     const bool solid = d.closed() && d.inverted_components == 0;
     facts.add("sign", solid ? "solid" : "sheet",
               d.components == 0 ? "none: there is nothing to bake"
-              : solid           ? "a solid, unless one part of it lies within another"
-                                : "a sheet, faces occlude from both sides and no inside is assumed");
+              : solid           ? "a solid, unless one part is inside another"
+                                : "a sheet: faces occlude from both sides, and there is no inside");
 }
 
 }

@@ -1,6 +1,7 @@
+#include "bake_batch.h"
 #include "command_line.h"
-#include "common.h"
 #include "ending.h"
+#include "options.h"
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/errors.h"
@@ -15,7 +16,7 @@ namespace {
 
 enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
 
-/// One line, whatever the names in it hold.
+/// Prints a message in one line, even if it contains line breaks.
 int complain(ExitCode code, const std::string& message) {
     std::fputs(fmt::format("alcove: {}\n", alcove::in_one_line(message)).c_str(), stderr);
     return code;
@@ -25,8 +26,7 @@ int complain(ExitCode code, const std::string& message) {
 
 int main(int argc, char** argv) {
     alcove::cli::end_cleanly();
-    CLI::App program{
-        "Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
+    CLI::App program{"Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
     program.set_version_flag("--version", "alcove " ALCOVE_VERSION);
     program.require_subcommand(1);
     program.footer("Start with: alcove bake model.ply -o model_ao.ply");
@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
             return program.exit(error);
         return complain(usage, alcove::cli::explain(program, error, {argv + 1, argv + argc}));
+    } catch (const alcove::cli::BatchError& error) {
+        return complain(error.bad_input ? bad_input : failure, error.what());
     } catch (const alcove::cli::UsageError& error) {
         return complain(usage, error.what());
     } catch (const alcove::InputError& error) {

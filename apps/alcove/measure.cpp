@@ -1,7 +1,5 @@
-#include "common.h"
-#include "length.h"
 #include "measured_results.h"
-#include "method_options.h"
+#include "options.h"
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
@@ -29,13 +27,13 @@ struct MeasureOptions {
     std::string radius = "10%", voxel = "auto", methods, report, json;
 };
 
-/// A length and how it was written.
+/// A length and its text on the command line.
 struct WrittenLength {
     std::string text;
     Length length;
 };
 
-/// A measurement to make or to have.
+/// A requested measurement.
 struct Job {
     const std::string* mesh;
     const WrittenLength* radius;
@@ -52,12 +50,20 @@ std::vector<std::string> split(const std::string& text) {
     return words;
 }
 
+Length parse_length(const char* option, const std::string& word) {
+    try {
+        return Length(word);
+    } catch (const InputError& error) {
+        throw UsageError(fmt::format("{} {}", option, error.what()));
+    }
+}
+
 std::vector<WrittenLength> parse_radii(const std::string& text) {
     std::vector<WrittenLength> radii;
     for (const std::string& word : split(text)) {
-        radii.push_back({word, parse_length(word, "--radius")});
+        radii.push_back({word, parse_length("--radius", word)});
         if (radii.back().length.unit == Length::Unit::voxels)
-            throw UsageError("--radius takes no vx here: write 0.2 (scene units) or 10%");
+            throw UsageError("--radius does not take vx here: write 0.2 (scene units) or 10%");
     }
     return radii;
 }
@@ -66,7 +72,7 @@ std::vector<WrittenLength> parse_radii(const std::string& text) {
 std::vector<WrittenLength> parse_voxels(const std::string& text) {
     std::vector<WrittenLength> voxels;
     for (const std::string& word : split(text)) {
-        voxels.push_back({word, word == "auto" ? Length{} : parse_length(word, "--voxel")});
+        voxels.push_back({word, word == "auto" ? Length{} : parse_length("--voxel", word)});
         if (voxels.back().length.unit == Length::Unit::voxels || std::isinf(voxels.back().length.value))
             throw UsageError("--voxel takes 0.2 (scene units), 0.5% or auto, not '" + word + "'");
     }
@@ -75,15 +81,14 @@ std::vector<WrittenLength> parse_voxels(const std::string& text) {
 
 MethodChoice parse_choice(const std::string& word) {
     const std::size_t colon = word.find(':');
-    const Method& method = parse_method(word.substr(0, colon));
+    const Method& method = as_usage([&]() -> const Method& { return find_method(word.substr(0, colon)); });
     std::optional<int> samples;
     if (colon != std::string::npos) {
         int number = 0;
         const char* const end = word.data() + word.size();
         const auto [last, error] = std::from_chars(word.data() + colon + 1, end, number);
         if (error != std::errc() || last != end)
-            throw UsageError(
-                fmt::format("--methods takes NAME or NAME:N with a whole number, not '{}'", word));
+            throw UsageError(fmt::format("--methods takes NAME or NAME:N with a whole number, not '{}'", word));
         samples = number;
     }
     try {
@@ -115,10 +120,9 @@ Asked asked_of(const std::string& mesh, const WrittenLength& radius, const Writt
             {"version", ALCOVE_VERSION}};
 }
 
-/// Every job once, those that share a mesh, a radius and a grid together.
+/// All jobs without duplicates. Jobs with the same mesh, radius and grid are adjacent.
 std::vector<Job> plan_jobs(const std::vector<std::string>& meshes, const std::vector<WrittenLength>& radii,
-                           const std::vector<WrittenLength>& voxels,
-                           const std::vector<MethodChoice>& choices) {
+                           const std::vector<WrittenLength>& voxels, const std::vector<MethodChoice>& choices) {
     std::vector<const WrittenLength*> grids{nullptr};
     for (const WrittenLength& voxel : voxels)
         grids.push_back(&voxel);
@@ -137,10 +141,10 @@ std::vector<Job> plan_jobs(const std::vector<std::string>& meshes, const std::ve
     return jobs;
 }
 
-/// Makes what jobs share when it is first asked for, and tells how far all of them are.
-class Laboratory {
+/// Caches the inputs that consecutive jobs share, and shows the progress of all jobs.
+class MeasurementInputs {
   public:
-    Laboratory(const std::vector<Job>& jobs, Pictures pictures, ProgressMode mode)
+    MeasurementInputs(const std::vector<Job>& jobs, Pictures pictures, ProgressMode mode)
         : pictures_(pictures), meter_(mode, "measuring") {
         const Job* last = nullptr;
         for (const Job& job : jobs) {
@@ -150,15 +154,15 @@ class Laboratory {
         }
     }
 
-    /// Jobs come in the order of the constructor's; what it shares with the last one is kept.
-    /// \throw what reading, voxelizing and measuring throw.
+    /// Call with the jobs in the order given to the constructor. Reuses the inputs shared with the previous job.
+    /// \throw as read_mesh(), build_grid() and alcove::measure().
     Measurement measure(const Job& job) {
         if (!last_ || last_->mesh != job.mesh) {
             mesh_.reset();
             mesh_.emplace(*job.mesh, read_mesh(*job.mesh));
         }
         const double diagonal = mesh_->frame.diagonal;
-        const float radius = to_unit(job.radius->length, diagonal);
+        const float radius = as_usage([&] { return job.radius->length.to_unit(diagonal); });
         if (!same_truth(last_, job)) {
             grid_.reset();
             truth_ = make_truth(*mesh_, radius, {}, next(truth_work));
@@ -166,8 +170,8 @@ class Laboratory {
         if (!same_grid(last_, job)) {
             grid_.reset();
             const Length& voxel = job.voxel->length;
-            grid_.emplace(build_grid(*mesh_, radius, voxel.value > 0.0 ? to_unit(voxel, diagonal) : 0.0f,
-                                     next(grid_work)));
+            grid_.emplace(
+                build_grid(*mesh_, radius, voxel.value > 0.0 ? voxel.to_unit(diagonal) : 0.0f, next(grid_work)));
         }
         last_ = &job;
         return alcove::measure(*mesh_, truth_, grid_ ? &*grid_ : nullptr, job.choice, pictures_,
@@ -175,16 +179,12 @@ class Laboratory {
     }
 
   private:
-    // In rays a vertex, or what takes about as long.
+    // In rays per vertex, or work that takes about as long.
     static constexpr double truth_work = TruthOptions{}.rays, grid_work = 100.0;
     static double work_of(const MethodChoice& choice) { return 5.0 + choice.samples; }
 
-    static bool same_truth(const Job* a, const Job& b) {
-        return a && a->mesh == b.mesh && a->radius == b.radius;
-    }
-    static bool same_grid(const Job* a, const Job& b) {
-        return !b.voxel || (same_truth(a, b) && a->voxel == b.voxel);
-    }
+    static bool same_truth(const Job* a, const Job& b) { return a && a->mesh == b.mesh && a->radius == b.radius; }
+    static bool same_grid(const Job* a, const Job& b) { return !b.voxel || (same_truth(a, b) && a->voxel == b.voxel); }
     Progress next(double work) {
         done_work_ += step_;
         step_ = work;
@@ -200,13 +200,13 @@ class Laboratory {
     std::optional<MeasuredGrid> grid_;
 };
 
-/// Measures what is not in the results. A mesh that cannot be measured is left out with what is wrong with it.
-std::vector<std::string> measure_missing(const std::vector<Job>& jobs, MeasuredResults& results,
-                                         Pictures pictures, ProgressMode mode) {
+/// Measures the jobs that are not in the results. Skips meshes that cannot be measured. \return their error messages.
+std::vector<std::string> measure_missing(const std::vector<Job>& jobs, MeasuredResults& results, Pictures pictures,
+                                         ProgressMode mode) {
     std::vector<Job> missing;
     std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),
                  [&](const Job& job) { return results.find(job.asked) == nullptr; });
-    Laboratory laboratory(missing, pictures, mode);
+    MeasurementInputs inputs(missing, pictures, mode);
     std::vector<std::string> failures;
     const std::string* failed = nullptr;
     for (const Job& job : missing) {
@@ -218,7 +218,7 @@ std::vector<std::string> measure_missing(const std::vector<Job>& jobs, MeasuredR
             failed = job.mesh;
         };
         try {
-            results.add(job.asked, laboratory.measure(job));
+            results.add(job.asked, inputs.measure(job));
         } catch (const InputError& error) {
             fail(error);
         } catch (const LimitError& error) {
@@ -233,11 +233,11 @@ void print(const std::vector<Measurement>& measurements) {
     for (const Measurement& m : measurements) {
         if (m.mesh != mesh)
             fmt::print("{}{}: {} vertices, compared at {}\n{:>22} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n",
-                       mesh.empty() ? "" : "\n", m.mesh, grouped(m.vertices), grouped(m.error.count),
-                       "method", "radius", "voxel", "rmse", "bias", "truth sd", "CPU s");
+                       mesh.empty() ? "" : "\n", m.mesh, grouped(m.vertices), grouped(m.error.count), "method",
+                       "radius", "voxel", "rmse", "bias", "truth sd", "CPU s");
         mesh = m.mesh;
-        fmt::print("{:>22} {:>8.4g} {:>8.4g} {:>8.4f} {:>+8.4f} {:>8.4f} {:>10.4g}\n", m.label(), m.radius,
-                   m.voxel, m.error.rmse, m.error.bias, m.error.deviation, m.seconds());
+        fmt::print("{:>22} {:>8.4g} {:>8.4g} {:>8.4f} {:>+8.4f} {:>8.4f} {:>10.4g}\n", m.label(), m.radius, m.voxel,
+                   m.error.rmse, m.error.bias, m.error.deviation, m.seconds());
     }
 }
 
@@ -249,9 +249,8 @@ void run(const MeasureOptions& options) {
     if (!options.report.empty())
         const AtomicFile probe(options.report);
     MeasuredResults results(options.json);
-    const std::vector<std::string> failures =
-        measure_missing(jobs, results, options.report.empty() ? Pictures::none : Pictures::painted,
-                        options.common.progress_mode());
+    const std::vector<std::string> failures = measure_missing(
+        jobs, results, options.report.empty() ? Pictures::none : Pictures::painted, options.common.progress_mode());
 
     std::vector<Measurement> measurements;
     for (const Job& job : jobs)
@@ -273,31 +272,28 @@ void run(const MeasureOptions& options) {
 }
 
 void add_measure(CLI::App& program) {
-    auto* verb =
-        program.add_subcommand("measure", "Measure the error, time and memory of estimators on meshes");
+    auto* verb = program.add_subcommand("measure", "Measure the error, time and memory of estimators on meshes");
     auto options = std::make_shared<MeasureOptions>();
     verb->add_option("input", options->inputs, "Meshes to measure on (ply, obj, off, stl)")->required();
     verb->add_option("--radius", options->radius,
-                     "How far occluders count, with commas between several: 0.2 (scene units), 10%, inf")
+                     "Maximum distances of occluders, separated by commas: 0.2 (scene units), 10%, inf")
         ->type_name("LEN,...")
         ->capture_default_str();
-    verb->add_option("--voxel", options->voxel,
-                     "Edges of the finest voxel, with commas between several: 0.2, 0.5%, auto")
+    verb->add_option("--voxel", options->voxel, "Edges of the finest voxel, separated by commas: 0.2, 0.5%, auto")
         ->type_name("LEN,...")
         ->capture_default_str();
     verb->add_option("--methods", options->methods,
                      "NAME, or NAME:N with N samples or rays. Default: all, and some at several N")
         ->type_name("NAME[:N],...");
-    verb->add_option("--report", options->report, "Write a page with charts and pictures (html)")
-        ->type_name("FILE");
+    verb->add_option("--report", options->report, "Write a page with charts and images (html)")->type_name("FILE");
     verb->add_option("--json", options->json,
-                     "Write every result as it comes; those that are there already are not measured again")
+                     "Write each result as soon as it is measured; results already in the file are not measured again")
         ->type_name("FILE");
     add_run_options(*verb, options->common);
     verb->footer(
-        "The reference is 1,024 exact rays a vertex, at up to 20,000 vertices; methods bake all of them. "
-        "Seconds are of the\nCPU clock of the process, one pass; a grid is made once for each radius and "
-        "voxel, and its time counted to each\nmethod that probes it.\n\n"
+        "The reference is 1,024 exact rays per vertex, at up to 20,000 vertices; each method bakes all vertices.\n"
+        "Seconds are CPU time of the process for one pass. A grid is built once per radius and voxel, and its\n"
+        "time is added to each method that uses it.\n\n"
         "Examples:\n"
         "  alcove measure scan.ply --report scan.html\n"
         "  alcove measure scan.ply part.stl --methods guided:3,exact:16,classic --json results.json\n"

@@ -90,13 +90,13 @@ MeasuredResults::MeasuredResults(std::string file) : file_(std::move(file)) {
         for (const Json& result : whole.at("measurements"))
             results_.push_back({result.at("asked"), measurement_of(result)});
     } catch (const Json::exception&) {
-        throw InputError(file_ + ": is there and holds no measurements to go on with: name another file");
+        throw InputError(file_ + ": exists but contains no measurements: name another file");
     }
 }
 
 const Measurement* MeasuredResults::find(const Asked& asked) const {
-    const auto found = std::find_if(results_.begin(), results_.end(),
-                                    [&](const Result& result) { return result.asked == asked; });
+    const auto found =
+        std::find_if(results_.begin(), results_.end(), [&](const Result& result) { return result.asked == asked; });
     return found == results_.end() ? nullptr : &found->measurement;
 }
 
@@ -114,8 +114,7 @@ void MeasuredResults::write() const {
         all.push_back(std::move(json));
     }
     AtomicFile target(file_);
-    target.write(Json{{"measurements", std::move(all)}}.dump(1, ' ', false, Json::error_handler_t::replace) +
-                 "\n");
+    target.write(Json{{"measurements", std::move(all)}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     target.commit();
 }
 

@@ -1,4 +1,4 @@
-/// The measurements in a JSON file, so that a run that was cut off goes on where it was.
+/// Measurements in a JSON file, so that an interrupted run can continue.
 #pragma once
 
 #include "alcove/measure/measure.h"
@@ -10,19 +10,19 @@
 
 namespace alcove::cli {
 
-/// What makes a measurement the one that was asked for: mesh, its size in bytes, method, samples, radius and voxel
-/// as they were given, version.
+/// The key of a measurement: mesh, its file size in bytes, method, samples, radius and voxel as written on the command
+/// line, and version.
 using Asked = nlohmann::ordered_json;
 
 class MeasuredResults {
   public:
-    /// Reads what the file holds, if there is one; an empty name keeps everything in memory. \throw InputError
-    /// if the file is there and is none of ours; IoError if nothing can be written there.
+    /// Reads the file if it exists; an empty name keeps everything in memory. \throw InputError if the file exists but
+    /// does not contain measurements; IoError if it cannot be written.
     explicit MeasuredResults(std::string file);
 
-    /// Null if it was not measured yet.
+    /// Null if not measured yet.
     const Measurement* find(const Asked& asked) const;
-    /// Keeps it, and writes the file whole. Results of other inputs stay in it. \throw IoError.
+    /// Adds a measurement and rewrites the file. Results of other inputs are kept. \throw IoError.
     void add(const Asked& asked, Measurement measurement);
 
   private:

@@ -1,9 +1,8 @@
-#include "common.h"
+#include "options.h"
 
 #include "alcove/occlusion/catalog.h"
-#include "alcove/render/image_method.h"
+#include "alcove/render/detail/image_method.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -32,7 +31,7 @@ nlohmann::ordered_json json_of(const ParameterInfo& parameter) {
             {"unit", parameter.unit},       {"summary", parameter.summary}};
 }
 
-std::vector<std::string_view> names_of(ChannelSet gives) {
+std::vector<std::string_view> list_of(ChannelSet gives) {
     std::vector<std::string_view> names;
     for (const ChannelInfo& channel : channels)
         if (gives.has(channel.channel))
@@ -44,26 +43,23 @@ nlohmann::ordered_json json_of(const MethodInfo& method, ChannelSet gives) {
     nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
     for (const ParameterInfo& parameter : method.parameters())
         parameters.push_back(json_of(parameter));
-    return {{"name", method.name},       {"summary", method.summary}, {"gives", names_of(gives)},
+    return {{"name", method.name},       {"summary", method.summary}, {"gives", list_of(gives)},
             {"formula", method.formula}, {"source", method.source},   {"cost_in_map_calls", method.cost},
             {"good", method.good},       {"bad", method.bad},         {"parameters", parameters}};
 }
 
 void print(const MethodInfo& method, ChannelSet gives) {
-    const auto line = [](std::string_view key, std::string_view text) {
-        fmt::print("  {:<9}{}\n", key, text);
-    };
+    const auto line = [](std::string_view key, std::string_view text) { fmt::print("  {:<9}{}\n", key, text); };
     fmt::print("{}: {}\n", method.name, method.summary);
-    line("gives", fmt::format("{}", fmt::join(names_of(gives), ", ")));
+    line("gives", names_of(gives));
     line("formula", method.formula);
     line("source", method.source);
-    line("cost", fmt::format("{} map() calls a point", method.cost));
+    line("cost", fmt::format("{} map() calls per point", method.cost));
     line("good", method.good);
     line("bad", method.bad);
     std::string_view key = "set";
     for (const ParameterInfo& p : method.parameters()) {
-        const std::string range =
-            p.flag ? "" : fmt::format(" ({} to {})", value_of(p, p.min), value_of(p, p.max));
+        const std::string range = p.flag ? "" : fmt::format(" ({} to {})", value_of(p, p.min), value_of(p, p.max));
         line(key, fmt::format("{}={}{}{}: {}", p.name, value_of(p, p.standard),
                               p.unit.empty() ? "" : fmt::format(" {}", p.unit), range, p.summary));
         key = "";
@@ -73,16 +69,16 @@ void print(const MethodInfo& method, ChannelSet gives) {
 
 void run(const CommonOptions& options) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    const auto tell = [&](const MethodInfo& method, ChannelSet gives) {
+    const auto list = [&](const MethodInfo& method, ChannelSet gives) {
         if (options.json)
             all.push_back(json_of(method, gives));
         else
             print(method, gives);
     };
     for (const Method& method : catalog())
-        tell(method, method.gives);
+        list(method, method.gives);
     for (const ImageMethod& method : image_methods())
-        tell(method, Channel::ao);
+        list(method, Channel::ao);
     if (options.json)
         print_json({{"methods", all}});
 }
@@ -93,7 +89,7 @@ void add_methods(CLI::App& program) {
     auto* verb = program.add_subcommand("methods", "List every estimator: formula, source, cost, parameters");
     auto options = std::make_shared<CommonOptions>();
     add_common_options(*verb, *options);
-    verb->footer("The radius is an option of its own; a parameter is set by name:\n"
+    verb->footer("--radius sets the radius; --set sets any other parameter by name:\n"
                  "  alcove bake scan.ply -o scan_ao.ply --method hemisphere --set surfel_frame=true\n");
     verb->callback([options] { run(*options); });
 }

@@ -18,6 +18,18 @@ ProgressMeter::ProgressMeter(ProgressMode mode, std::string label) : mode_(mode)
 }
 
 ProgressMeter::~ProgressMeter() {
+    clear();
+}
+
+void ProgressMeter::show(std::string_view label, double done) {
+    if (label != label_) {
+        label_ = label;
+        start_ = last_shown_ = Clock::now();
+    }
+    (*this)(done);
+}
+
+void ProgressMeter::clear() {
     if (bar_is_shown)
         std::fputs(clear_bar.data(), stderr);
     bar_is_shown = false;

@@ -1,4 +1,4 @@
-/// Progress on stderr, with the time that is left, for work of over a second.
+/// Progress on stderr with the remaining time, for work that takes more than a second.
 #pragma once
 
 #include <atomic>
@@ -10,11 +10,11 @@ namespace alcove::cli {
 
 enum class ProgressMode { automatic, bar, plain, none };
 
-/// Whether a bar stands in the last line of stderr, and what clears it: for those who end the program.
+/// Whether the last line of stderr is a progress bar, and the text that clears it. For code that ends the program.
 inline std::atomic<bool> bar_is_shown{false};
 inline constexpr std::string_view clear_bar = "\r\033[K";
 
-/// One meter a phase of the work. `automatic` draws a bar on a terminal and is silent elsewhere.
+/// Shows the progress of one phase at a time. `automatic` draws a bar on a terminal and is silent elsewhere.
 class ProgressMeter {
   public:
     ProgressMeter(ProgressMode mode, std::string label);
@@ -22,7 +22,11 @@ class ProgressMeter {
     ProgressMeter(const ProgressMeter&) = delete;
     ProgressMeter& operator=(const ProgressMeter&) = delete;
 
+    /// Shows `done`, in [0, 1]. A new label restarts the time estimate.
+    void show(std::string_view label, double done);
     void operator()(double done);
+    /// Clears the bar, so that a line can be printed to stderr.
+    void clear();
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -1,17 +1,21 @@
-#include "common.h"
+#include "ending.h"
 #include "image_output.h"
+#include "options.h"
 #include "scene_options.h"
-#include "time_estimate.h"
 
+#include "alcove/bake/detail/deadline.h"
 #include "alcove/base/detail/memory.h"
+#include "alcove/base/detail/stopwatch.h"
+#include "alcove/base/parallel.h"
+#include "alcove/render/detail/image_method.h"
 #include "alcove/render/detail/turntable.h"
-#include "alcove/scene/build.h"
+#include "alcove/scene/scene.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -25,13 +29,13 @@ struct Options {
     std::optional<int> frames;
 };
 
-/// A picture to draw: where the camera is on its way around, and the file it goes to.
+/// An image to render: the angle of the camera on the turntable, and the file to write.
 struct Frame {
     double degrees;
     std::string file;
 };
 
-/// The frames of a turntable that are not there yet, or the one picture.
+/// The frames of a turntable whose files do not exist yet, or the single image.
 std::vector<Frame> frames_to_draw(const Options& options, const ImageOutput& output) {
     if (!options.frames)
         return {{0.0, options.image.file}};
@@ -44,10 +48,9 @@ std::vector<Frame> frames_to_draw(const Options& options, const ImageOutput& out
     return left;
 }
 
-/// The axis of a turntable: upward through what is looked at.
+/// The axis of a turntable: the up direction through the point that the camera looks at.
 Axis axis_of(const Scene& scene, const BuiltScene& built) {
-    return {scene.camera.look_at.value_or(built.renderable.box.empty() ? Vec3d(0.0)
-                                                                       : built.renderable.box.center()),
+    return {scene.camera.look_at.value_or(built.renderable.box.empty() ? Vec3d(0.0) : built.renderable.box.center()),
             scene.camera.up};
 }
 
@@ -57,91 +60,135 @@ Camera camera_of(const Options& options, const Scene& scene, const BuiltScene& b
     return make_camera(scene.camera, swept(built.points, axis_of(scene, built)), size);
 }
 
+/// Refuses an image that would clearly exceed the time limit. `draw` renders an image of a size; the estimate uses 1/16
+/// and 1/64 of the width and height.
+void check_time(ImageSize size, const std::function<void(ImageSize)>& draw) {
+    const Deadline deadline(seconds_left());
+    if (!deadline.is_set())
+        return;
+    const auto pixels = [](const ImageSize& of) { return static_cast<double>(of.width) * of.height; };
+    const auto scaled = [&](double by) {
+        return ImageSize{std::max(static_cast<int>(by * size.width), 1),
+                         std::max(static_cast<int>(by * size.height), 1)};
+    };
+    // The difference excludes work whose time does not depend on the size.
+    const ImageSize small = scaled(1.0 / 16.0), smaller = scaled(1.0 / 64.0);
+    const double less = shared_seconds_of([&] { draw(smaller); });
+    const double more = shared_seconds_of([&] { draw(small); });
+    const double per_pixel = (more - less) / std::max(pixels(small) - pixels(smaller), 1.0);
+    deadline.check(per_pixel * pixels(size), [&](double share) -> std::string {
+        constexpr double least_side = 0.1;
+        const double side = std::sqrt(share);
+        if (side < least_side)
+            return "fewer samples and a smaller --size";
+        const ImageSize fits = scaled(side);
+        return fmt::format("--size {}x{}", fits.width, fits.height);
+    });
+}
+
 nlohmann::ordered_json triple(const Vec3d& v) {
     return {v.x, v.y, v.z};
 }
 
-void run(const Options& options) {
-    const ThreadLimit limit(options.common.threads);
-    Stopwatch watch;
-    nlohmann::ordered_json seconds;
-    const ImageOutput output(options.image);
-    const Scene scene = requested_scene(options.scene, output.passes());
-    const std::string_view method = scene.occlusion.info() ? scene.occlusion.info()->name : "none";
-    const std::vector<Frame> frames = frames_to_draw(options, output);
-    const int skipped = options.frames ? *options.frames - static_cast<int>(frames.size()) : 0;
-    if (frames.empty()) {
-        if (options.common.json)
-            print_json({{"output", options.image.file}, {"frames", *options.frames}, {"skipped", skipped}});
-        else if (!options.common.quiet)
-            fmt::print("{}: all {} frames are there; delete those to draw anew\n", options.image.file,
-                       skipped);
-        return;
+std::string_view name_of_method(const Scene& scene, const BuiltScene& built) {
+    const ImageMethod* const image_method = scene.occlusion.image_method;
+    return built.occlusion.method ? built.occlusion.method->name : image_method ? image_method->name : "none";
+}
+
+/// One run of the verb, from reading the scene to printing the result.
+class RenderJob {
+  public:
+    explicit RenderJob(const Options& options)
+        : options_(options), output_(options.image), scene_(requested_scene(options.scene, output_.passes())),
+          frames_(frames_to_draw(options, output_)) {}
+
+    void run() {
+        if (frames_.empty()) {
+            if (options_.common.json)
+                print_json({{"output", options_.image.file}, {"frames", *options_.frames}, {"skipped", skipped()}});
+            else if (!options_.common.quiet)
+                fmt::print("{}: all {} frames exist; delete the ones to render again\n", options_.image.file,
+                           skipped());
+            return;
+        }
+        Stopwatch watch;
+        const BuiltScene built = [&] {
+            ProgressMeter voxelizing(options_.common.progress_mode(), "voxelizing");
+            return build_scene(scene_, output_.passes(), std::ref(voxelizing));
+        }();
+        seconds_["scene"] = watch.lap();
+        const Camera start = camera_of(options_, scene_, built, scene_.size);
+        check_time(scene_.size, [&](ImageSize size) {
+            const Camera camera = camera_of(options_, scene_, built, size);
+            render(built.renderable, camera, rendering_of(scene_, built, camera, output_.passes()));
+        });
+        draw(built, start);
+        const std::vector<std::string> warnings = warnings_of(built, start);
+        print_warnings(warnings, options_.common);
+        if (options_.common.json)
+            print_object(built, start, warnings);
+        else if (!options_.common.quiet)
+            print_line(built);
     }
 
-    const BuiltScene built = [&] {
-        ProgressMeter voxelizing(options.common.progress_mode(), "voxelizing");
-        return build_scene(scene, output.passes(), std::ref(voxelizing));
-    }();
-    seconds["scene"] = watch.lap();
+  private:
+    int skipped() const { return options_.frames ? *options_.frames - static_cast<int>(frames_.size()) : 0; }
+    double radius_of(const BuiltScene& built) const { return built.radius * built.renderable.frame.diagonal; }
 
-    const double radius = built.radius * built.renderable.frame.diagonal;
-    const std::string comments = fmt::format(
-        "{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
-        std::filesystem::path(options.scene.input).filename().string(), method, radius, built.voxel);
-    const Camera start = camera_of(options, scene, built, scene.size);
-    refuse_late_picture(scene.size, [&](ImageSize size) {
-        const Camera camera = camera_of(options, scene, built, size);
-        render(built.renderable, camera, rendering_of(scene, built, camera, output.passes()));
-    });
-    double rendering = 0.0, writing = 0.0;
-    std::size_t covered = 0;
-    {
-        ProgressMeter meter(options.common.progress_mode(), "rendering");
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            const Camera camera =
-                options.frames ? turned(start, axis_of(scene, built), frames[i].degrees) : start;
+    void draw(const BuiltScene& built, const Camera& start) {
+        const std::string comments = fmt::format("{}, ambient occlusion: {}, radius {:.6g}, voxel {:.6g} scene units",
+                                                 std::filesystem::path(options_.scene.input).filename().string(),
+                                                 name_of_method(scene_, built), radius_of(built), built.voxel);
+        ProgressMeter meter(options_.common.progress_mode(), "rendering");
+        double rendering = 0.0, writing = 0.0;
+        Stopwatch watch;
+        for (std::size_t i = 0; i < frames_.size(); ++i) {
+            const Camera camera = options_.frames ? turned(start, axis_of(scene_, built), frames_[i].degrees) : start;
             const auto done = [&](double part) {
-                meter((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
+                meter((static_cast<double>(i) + part) / static_cast<double>(frames_.size()));
             };
             const Image image =
-                render(built.renderable, camera, rendering_of(scene, built, camera, output.passes()), done);
+                render(built.renderable, camera, rendering_of(scene_, built, camera, output_.passes()), done);
             rendering += watch.lap();
-            output.write(image, frames[i].file, camera, comments);
+            output_.write(image, frames_[i].file, camera, comments);
             writing += watch.lap();
-            covered += static_cast<std::size_t>(
+            covered_ += static_cast<std::size_t>(
                 std::count_if(image.alpha.begin(), image.alpha.end(), [](float a) { return a > 0.0f; }));
         }
+        seconds_["render"] = rendering;
+        seconds_["write"] = writing;
     }
-    seconds["render"] = rendering;
-    seconds["write"] = writing;
 
-    std::vector<std::string> warnings = built.warnings;
-    if (covered == 0)
-        warnings.push_back(
-            "the picture is empty: the camera does not see the renderable; leave out its eye and "
-            "what it looks at");
-    const Renderable& renderable = built.renderable;
-    if (!two_sided(renderable.field) && renderable.field.map(renderable.frame.to_unit(start.eye())) < 0.0f)
-        warnings.push_back("the camera is inside a solid, where all is black: move it, or say sign = "
-                           "\"unsigned\" of a room");
-    print_warnings(warnings, options.common);
-    if (!options.common.json && !options.common.quiet) {
-        const std::string drawn =
-            options.frames ? fmt::format("{} frames to {}, {} were there", frames.size(),
-                                         output.frame_file(*options.frames, *options.frames), skipped)
-                           : options.image.file;
-        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}, voxel {:.4g}\n", drawn,
-                   scene.size.width, scene.size.height, method, radius, built.voxel);
+    std::vector<std::string> warnings_of(const BuiltScene& built, const Camera& start) const {
+        std::vector<std::string> warnings = built.warnings;
+        if (covered_ == 0)
+            warnings.emplace_back("the image is empty, since nothing is in front of the camera: leave out --eye and "
+                                  "--look-at");
+        const Renderable& renderable = built.renderable;
+        if (!two_sided(renderable.field) && renderable.field.map(renderable.frame.to_unit(start.eye())) < 0.0f)
+            warnings.emplace_back(
+                "the camera is inside a solid, where everything is black: move it, or use --sign sheet "
+                "(in a scene file sign = \"sheet\") for a room");
+        return warnings;
     }
-    if (options.common.json) {
-        nlohmann::ordered_json result{{"input", options.scene.input},
-                                      {"output", options.image.file},
-                                      {"width", scene.size.width},
-                                      {"height", scene.size.height},
-                                      {"covered_pixels", covered},
-                                      {"method", method},
-                                      {"radius", radius},
+
+    void print_line(const BuiltScene& built) const {
+        const std::string drawn = options_.frames
+                                      ? fmt::format("{} frames to {}, {} existed", frames_.size(),
+                                                    output_.frame_file(*options_.frames, *options_.frames), skipped())
+                                      : options_.image.file;
+        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}, voxel {:.4g}\n", drawn, scene_.size.width,
+                   scene_.size.height, name_of_method(scene_, built), radius_of(built), built.voxel);
+    }
+
+    void print_object(const BuiltScene& built, const Camera& start, const std::vector<std::string>& warnings) const {
+        nlohmann::ordered_json result{{"input", options_.scene.input},
+                                      {"output", options_.image.file},
+                                      {"width", scene_.size.width},
+                                      {"height", scene_.size.height},
+                                      {"covered_pixels", covered_},
+                                      {"method", name_of_method(scene_, built)},
+                                      {"radius", radius_of(built)},
                                       {"voxel", built.voxel},
                                       {"levels", built.levels},
                                       {"camera",
@@ -149,15 +196,27 @@ void run(const Options& options) {
                                         {"forward", triple(start.forward())},
                                         {"up", triple(start.up())},
                                         {"fov", start.fov()}}},
-                                      {"seconds", seconds},
+                                      {"seconds", seconds_},
                                       {"peak_rss_bytes", peak_resident_bytes()},
                                       {"warnings", warnings}};
-        if (options.frames) {
-            result["frames"] = *options.frames;
-            result["skipped"] = skipped;
+        if (options_.frames) {
+            result["frames"] = *options_.frames;
+            result["skipped"] = skipped();
         }
         print_json(result);
     }
+
+    const Options& options_;
+    ImageOutput output_;
+    Scene scene_;
+    std::vector<Frame> frames_;
+    nlohmann::ordered_json seconds_;
+    std::size_t covered_ = 0;
+};
+
+void run(const Options& options) {
+    const ThreadLimit limit(options.common.threads);
+    RenderJob(options).run();
 }
 
 }
@@ -168,9 +227,7 @@ void add_render(CLI::App& program) {
     add_scene_options(*verb, options->scene);
     add_image_options(*verb, options->image);
     verb->add_option("--frames", options->frames,
-                     "Once around what is looked at, in N pictures numbered before the extension; those that "
-                     "are there "
-                     "already are left as they are")
+                     "Turntable: N images around the object, numbered before the extension; existing ones are kept")
         ->type_name("N")
         ->check(CLI::Range(1, 100000));
     add_common_options(*verb, options->common);

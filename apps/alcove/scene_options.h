@@ -1,10 +1,9 @@
-/// What the command line says of a picture: the scene of a file, and what is to be other than it says.
+/// The scene of an image: a file, and the options that override its settings.
 #pragma once
 
-#include "method_options.h"
-#include "voxelized.h"
+#include "options.h"
 
-#include "alcove/render/passes.h"
+#include "alcove/render/image.h"
 #include "alcove/scene/scene.h"
 
 #include <optional>
@@ -13,21 +12,24 @@ namespace alcove::cli {
 
 struct SceneRequest {
     std::string input;
-    GridRequest grid;
-    MethodRequest method;
-    bool radius_given = false, method_given = false; ///< else those of the scene
-    std::string size, eye, look_at, up;              ///< empty: those of the scene
+    // An empty option keeps the setting of the scene.
+    std::optional<Length> radius{}, voxel{};
+    SignChoice sign = SignChoice::automatic;
+    std::optional<Quality> quality{};
+    MethodRequest method{};
+    std::string size{};
+    std::optional<Vec3d> eye{}, look_at{}, up{};
     std::optional<double> fov{};
     std::optional<int> pixel_samples{};
     bool no_ground = false, no_shadow = false;
     std::optional<bool> own_normals{};
 };
 
-/// Adds the input, and the options of all these.
+/// Adds the input and the options of SceneRequest.
 void add_scene_options(CLI::App& verb, SceneRequest& request);
 
-/// A .toml is a scene, a .vdb a level set, all else a mesh; these are seen on a ground. The passes tell how much memory the
-/// picture takes. \throw UsageError, and what read_scene() throws.
+/// Reads a scene (.toml), or makes one with a ground plane for a level set (.vdb) or a mesh (any other file). `passes`
+/// determine the memory of the image, which is limited. \throw UsageError; as read_scene().
 Scene requested_scene(const SceneRequest& request, PassSet passes);
 
 }

@@ -1,12 +1,13 @@
-#include "common.h"
-#include "voxelized.h"
+#include "options.h"
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
+#include "alcove/mesh/read.h"
+#include "alcove/mesh/triangulate.h"
 #include "alcove/vdb/vdb_file.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -15,63 +16,88 @@
 namespace alcove::cli {
 namespace {
 
-struct VoxelizeVerbOptions {
+struct VoxelizeVerb {
     CommonOptions common;
-    GridRequest grid;
+    Length radius = "10%";
+    std::optional<Length> voxel;
+    VoxelizeOptions voxelizing;
     std::string input, output;
 };
 
-void run(const VoxelizeVerbOptions& options) {
-    const ThreadLimit limit(options.common.threads);
-    check_grid_output(options.output);
+GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh) {
+    VoxelizeOptions options = verb.voxelizing;
+    const double diagonal = frame_of(mesh.box()).diagonal;
+    options.grid.voxel = verb.voxel ? as_usage([&] { return verb.voxel->to_unit(diagonal); }) : 0.0f;
+    options.grid.radius = as_usage([&] { return verb.radius.to_unit(diagonal, options.grid.voxel); });
+    ProgressMeter meter(verb.common.progress_mode(), "voxelizing");
+    options.progress = std::ref(meter);
+    try {
+        return voxelize(mesh, triangulate(mesh).triangles, options);
+    } catch (const InputError& error) {
+        throw InputError(verb.input + ": " + error.what());
+    } catch (const LimitError& error) {
+        throw LimitError(verb.input + ": " + error.what());
+    }
+}
+
+void run(const VoxelizeVerb& verb) {
+    const ThreadLimit limit(verb.common.threads);
+    check_grid_output(verb.output);
+    if (!verb.voxel && verb.radius.unit == Length::Unit::voxels)
+        throw UsageError("--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
     nlohmann::ordered_json seconds;
-    const VoxelizedMesh input = read_and_voxelize(options.input, options.grid, options.common, seconds);
     Stopwatch watch;
-    write_grids(input.stack, options.output);
+    const Mesh mesh = read_mesh(verb.input);
+    seconds["read"] = watch.lap();
+    const GridStack stack = voxelized(verb, mesh);
+    seconds["grid"] = watch.lap();
+    write_grids(stack, verb.output);
     seconds["write"] = watch.lap();
 
-    print_warnings(input.warnings, options.common);
+    std::vector<std::string> warnings = mesh.warnings;
+    warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
+    print_warnings(warnings, verb.common);
     nlohmann::ordered_json levels = nlohmann::ordered_json::array();
-    for (const LevelSet& level : input.stack.levels)
-        levels.push_back({{"voxel", level.voxel * input.frame.diagonal},
+    for (const LevelSet& level : stack.levels)
+        levels.push_back({{"voxel", level.voxel * stack.frame.diagonal},
                           {"band", level.outer_band},
                           {"active_voxels", level.active_voxels},
                           {"bytes", level.bytes}});
-    if (options.common.json)
-        print_json({{"input", options.input},
-                    {"output", options.output},
-                    {"vertices", input.mesh.vertex_count()},
-                    {"faces", input.mesh.face_count()},
-                    {"sign", name_of(input.stack.sign)},
+    if (verb.common.json)
+        print_json({{"input", verb.input},
+                    {"output", verb.output},
+                    {"vertices", mesh.vertex_count()},
+                    {"faces", mesh.face_count()},
+                    {"sign", name_of(stack.sign)},
                     {"levels", levels},
-                    {"grid_bytes", input.stack.bytes()},
+                    {"grid_bytes", stack.bytes()},
                     {"seconds", seconds},
                     {"peak_rss_bytes", peak_resident_bytes()},
-                    {"warnings", input.warnings}});
-    else if (!options.common.quiet)
+                    {"warnings", warnings}});
+    else if (!verb.common.quiet)
         for (std::size_t i = 0; i < levels.size(); ++i)
-            fmt::print("{}: level {}: voxel {:.4g}, {} active voxels, {}\n", options.output, i + 1,
-                       levels[i]["voxel"].get<double>(), grouped(levels[i]["active_voxels"]),
-                       name_of(input.stack.sign));
+            fmt::print("{}: level {}: voxel {:.4g}, {} active voxels, {}\n", verb.output, i + 1,
+                       levels[i]["voxel"].get<double>(), grouped(levels[i]["active_voxels"]), name_of(stack.sign));
 }
 
 }
 
 void add_voxelize(CLI::App& program) {
-    auto* verb = program.add_subcommand("voxelize", "Turn a mesh into narrow-band level sets");
-    auto options = std::make_shared<VoxelizeVerbOptions>();
-    verb->add_option("input", options->input, "Mesh (ply, obj, off, stl)")->required();
-    verb->add_option("-o,--output", options->output, "Grid to write (vdb)")->required();
-    add_radius_option(*verb, options->grid,
-                      "How far distances are wanted; each level doubles the voxel until it is met");
-    add_grid_options(*verb, options->grid);
-    verb->add_option("--band", options->grid.band, "Voxels outward from the surface on each level")
+    auto* app = program.add_subcommand("voxelize", "Turn a mesh into narrow-band level sets");
+    auto verb = std::make_shared<VoxelizeVerb>();
+    app->add_option("input", verb->input, "Mesh (ply, obj, off, stl)")->required();
+    app->add_option("-o,--output", verb->output, "Grid to write (vdb)")->required();
+    add_radius_option(*app, verb->radius,
+                      "Maximum distance to store; levels with doubled voxels are added until they reach it");
+    add_grid_options(*app, verb->voxel, verb->voxelizing.sign);
+    app->add_option("--band", verb->voxelizing.grid.outer_band,
+                    "Width of the band outside the surface on each level, in voxels")
         ->check(CLI::Range(3.0, 100.0).description(""))
         ->type_name("N")
         ->capture_default_str();
-    add_common_options(*verb, options->common);
-    verb->footer("Example:\n  alcove voxelize scan.ply -o scan.vdb --voxel 0.2% --radius 20%\n");
-    verb->callback([options] { run(*options); });
+    add_common_options(*app, verb->common);
+    app->footer("Example:\n  alcove voxelize scan.ply -o scan.vdb --voxel 0.2% --radius 20%\n");
+    app->callback([verb] { run(*verb); });
 }
 
 }

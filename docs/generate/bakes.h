@@ -1,7 +1,9 @@
-/// Bakes from file to file by the program, and what Embree alone takes for the same error.
+/// Measures bakes from file to file: by the program, and by Embree alone at the same error.
 #pragma once
 
 #include "timing.h"
+
+#include "alcove/measure/measure.h"
 
 #include <alcove/alcove.h>
 
@@ -11,10 +13,10 @@
 
 namespace alcove::docs {
 
-/// A method, what it is given and what it comes to.
+/// A method with its samples and voxel, and the RMSE it reaches.
 struct Choice {
     MethodChoice method;
-    float voxel; ///< unit space; 0 for none
+    float voxel; ///< in unit space; 0 without a grid
     double rmse;
 
     std::string text() const; ///< "guided:4, voxel 1/64"
@@ -23,33 +25,33 @@ struct Choice {
 struct Bake {
     Choice choice{};
     double seconds = 0.0;
-    std::map<std::string, double> phases{}; ///< wall clock of start, read, grid, occlusion and write
+    std::map<std::string, double> phases{}; ///< wall-clock seconds of start, read, grid, occlusion and write
     std::size_t peak_rss_bytes = 0;
 };
 
-/// Of `alcove bake`, without its pilot.
+/// Runs `alcove bake` without its pilot.
 Bake bake_once(const std::filesystem::path& file, const Choice& choice, double radius);
 
-/// That of three runs whose seconds are in the middle.
+/// Returns the run of median time out of three.
 Bake bake_median(const std::filesystem::path& file, const Choice& choice, double radius);
 
-/// Seconds, memory and plan of a bake with --error and --json, in words.
+/// Describes time, memory and plan of a bake with --error and --json.
 std::string outcome_of(const Run& bake);
 
 struct Comparison {
     Bake ours;
-    double planned_seconds; ///< of --error
-    int rays;               ///< of Embree alone
-    double plain_rmse, plain_seconds;
+    double planned_seconds;           ///< of a bake with --error
+    int rays;                         ///< per vertex, of Embree alone
+    double plain_rmse, plain_seconds; ///< of Embree alone
 };
 
-/// What can be had on a mesh at a radius of 10 %.
+/// Measures the error of choices on a mesh at a radius of 10 %.
 class MeasuredChoices {
   public:
     explicit MeasuredChoices(const std::filesystem::path& file);
 
     std::size_t vertices() const { return mesh_.surfels.size(); }
-    /// The cheapest of ours, and Embree alone with as many rays as it takes.
+    /// The cheapest of our choices that meets the error, and Embree alone with as many rays as that takes.
     Comparison compare(double error) const;
 
   private:

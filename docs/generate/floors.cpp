@@ -18,17 +18,16 @@ namespace {
 constexpr float voxel = 1.0f / 128.0f;
 constexpr int probes = 5;
 
-std::string row(std::string_view what, double floor, double ours) {
-    return fmt::format("| {} | {:.3g} | {:.3g} | {:.2f} |\n", what, floor, ours, ours / floor);
+std::string row(std::string_view operation, double baseline, double ours) {
+    return fmt::format("| {} | {:.3g} | {:.3g} | {:.2f} |\n", operation, baseline, ours, ours / baseline);
 }
 
 /// CPU seconds of five probes above each surfel.
 template <class Sample>
 double seconds_of_probes(const std::vector<Surfel>& surfels, const Sample& sample) {
     return warm_cpu_seconds_of([&] {
-        probe_batches(
-            surfels, probes, 0.8f * voxel, sample,
-            [](const SurfelBatch::Values& values, std::size_t) { benchmark::DoNotOptimize(values); });
+        probe_batches(surfels, probes, 0.8f * voxel, sample,
+                      [](const SurfelBatch::Values& values, std::size_t) { benchmark::DoNotOptimize(values); });
     });
 }
 
@@ -36,24 +35,24 @@ std::string files_row(const std::filesystem::path& file) {
     const std::filesystem::path copy = std::filesystem::path(file).replace_extension(".copy.ply");
     std::vector<char> bytes(std::filesystem::file_size(file));
     Mesh mesh;
-    const auto t = medians({[&] {
-                                return warm_cpu_seconds_of([&] {
-                                    std::ifstream(file, std::ios::binary)
-                                        .read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-                                });
-                            },
-                            [&] { return warm_cpu_seconds_of([&] { mesh = read_mesh(file); }); },
-                            [&] {
-                                return warm_cpu_seconds_of([&] {
-                                    std::ofstream(copy, std::ios::binary)
-                                        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-                                });
-                            },
-                            [&] { return warm_cpu_seconds_of([&] { write_mesh(mesh, copy); }); }});
+    const auto t = medians(
+        {[&] {
+             return warm_cpu_seconds_of([&] {
+                 std::ifstream(file, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+             });
+         },
+         [&] { return warm_cpu_seconds_of([&] { mesh = read_mesh(file); }); },
+         [&] {
+             return warm_cpu_seconds_of([&] {
+                 std::ofstream(copy, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+             });
+         },
+         [&] { return warm_cpu_seconds_of([&] { write_mesh(mesh, copy); }); }});
     const double nanoseconds = 1e9 / static_cast<double>(bytes.size());
-    return row("reading binary PLY, ns a byte, beside the bytes alone", nanoseconds * t[0],
+    return row("reading binary PLY, ns per byte, against reading the bytes alone", nanoseconds * t[0],
                nanoseconds * t[1]) +
-           row("writing it, ns a byte, beside the bytes alone", nanoseconds * t[2], nanoseconds * t[3]);
+           row("writing binary PLY, ns per byte, against writing the bytes alone", nanoseconds * t[2],
+               nanoseconds * t[3]);
 }
 
 std::string map_row() {
@@ -69,10 +68,10 @@ std::string map_row() {
             values[i] = dense.at((points[i] + 0.5f) / voxel);
     };
     const auto map = [&](const Points& points, float* values) { field.map(points, 4.0f * voxel, values); };
-    const auto t = medians(
-        {[&] { return seconds_of_probes(surfels, fetch); }, [&] { return seconds_of_probes(surfels, map); }});
+    const auto t =
+        medians({[&] { return seconds_of_probes(surfels, fetch); }, [&] { return seconds_of_probes(surfels, map); }});
     const double nanoseconds = 1e9 / (static_cast<double>(surfels.size()) * probes);
-    return row("map() near a surface, ns, beside a trilinear fetch from a dense array", nanoseconds * t[0],
+    return row("map() near a surface, ns, against a trilinear fetch from a dense array", nanoseconds * t[0],
                nanoseconds * t[1]);
 }
 
@@ -80,9 +79,8 @@ std::string grid_row() {
     const Scan& s = scan(2);
     const VoxelizeOptions options{.grid = {.radius = 4.0f / 256.0f, .voxel = 1.0f / 256.0f}};
     const std::size_t bytes = voxelize(s.mesh, s.triangles, options).bytes();
-    // What is read and what is written, each once: positions, triangles and the grid.
-    std::vector<char> from(s.mesh.positions.size() * sizeof(Vec3d) + s.triangles.size() * sizeof(Triangle),
-                           1);
+    // The input, positions and triangles, is copied and memory for the grid is allocated.
+    std::vector<char> from(s.mesh.positions.size() * sizeof(Vec3d) + s.triangles.size() * sizeof(Triangle), 1);
     const auto t = medians({[&] {
                                 return warm_cpu_seconds_of([&] {
                                     std::vector<char> to(from.size() + bytes);
@@ -91,20 +89,18 @@ std::string grid_row() {
                                 });
                             },
                             [&] {
-                                return warm_cpu_seconds_of([&] {
-                                    benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, options));
-                                });
+                                return warm_cpu_seconds_of(
+                                    [&] { benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, options)); });
                             }});
     const double nanoseconds = 1e9 / static_cast<double>(s.triangles.size());
-    return row(
-        "voxelizing 832 k triangles at 1/256, ns a triangle, beside a copy of what is read and written",
-        nanoseconds * t[0], nanoseconds * t[1]);
+    return row("voxelizing 832 k triangles at 1/256, ns per triangle, against copying the input and output",
+               nanoseconds * t[0], nanoseconds * t[1]);
 }
 
 }
 
-std::string floors_section(const std::filesystem::path& file) {
-    return fmt::format("## Floors\n\n| what | floor | ours | ratio |\n| --- | --- | --- | --- |\n{}{}{}\n",
+std::string baselines_section(const std::filesystem::path& file) {
+    return fmt::format("## Baselines\n\n| operation | baseline | ours | ratio |\n| --- | --- | --- | --- |\n{}{}{}\n",
                        files_row(file), map_row(), grid_row());
 }
 

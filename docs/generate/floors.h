@@ -1,4 +1,4 @@
-/// What a bake could not be faster than, on the machine it runs on.
+/// Baselines: simple operations on the same data that a bake competes with.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace alcove::docs {
 
-/// Reading and writing beside a byte read once and written once, map() beside a fetch from a dense array, a grid beside
-/// a copy of what it is made from and of what it is.
-std::string floors_section(const std::filesystem::path& file);
+/// Compares reading and writing a mesh with reading and writing its bytes, map() with a fetch from a dense array, and
+/// voxelizing with a copy of its input and output.
+std::string baselines_section(const std::filesystem::path& file);
 
 }

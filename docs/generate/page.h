@@ -1,4 +1,4 @@
-/// What every program that writes a page of docs/ begins with.
+/// Shared by the programs that write the pages of docs/.
 #pragma once
 
 #include "alcove/base/errors.h"
@@ -11,7 +11,7 @@
 
 namespace alcove::docs {
 
-/// \throw IoError where the file cannot be written.
+/// \throw IoError if the file cannot be written.
 inline void write_text(const std::filesystem::path& file, std::string_view text) {
     std::ofstream page(file);
     page << text;
@@ -19,7 +19,8 @@ inline void write_text(const std::filesystem::path& file, std::string_view text)
         throw IoError(file.string() + ": cannot be written");
 }
 
-/// `write(folder of meshes, docs folder)` by the command line; what it throws becomes one line.
+/// Calls `write(mesh folder, docs folder)` with the two command-line arguments and returns the exit code. Prints the
+/// message of an exception as one line.
 template <class Write>
 int run_page(int argc, char** argv, const Write& write) {
     if (argc != 3) {

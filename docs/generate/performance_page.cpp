@@ -1,5 +1,5 @@
-// Writes docs/performance.md: where the time of a bake goes, beside its budget, its peers and the floors, and how it
-// grows.
+// Writes docs/performance.md: where the time of a bake goes, compared with its budget, its peers and simple baselines,
+// and how it scales.
 //
 //     alcove_performance_page <folder of meshes> <docs folder>
 #include "bakes.h"
@@ -26,11 +26,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view head = R"(# Where the time goes
 
-Written by `tools/docs.sh performance`, on one thread: do not edit. CPU seconds; figures that are held against each
-other were taken in turns, five times, and are medians. Phases are wall clock, of the bake in the middle of five, of three
-where it grows. The machine is shared and its clock drifts: trust ratios. Lengths are shares of the diagonal. The meshes
-are armadillo.off, each triangle split in four as often as it takes, and moved along the normals by one mean edge of noise
-where errors are measured.
+Written by `tools/docs.sh performance`, on one thread: do not edit. Times are CPU seconds. Figures that are compared
+with each other were measured in turns, five times, and are medians. The times of phases are wall-clock times of the
+median of five bakes, or of three in the last section. The machine is shared and its clock rate drifts: trust only
+ratios. Lengths are fractions of the diagonal. The meshes are armadillo.off with each triangle split in four as often as
+needed. Where errors are measured, the vertices are also moved along their normals by noise that is one mean edge high.
 
 )";
 
@@ -42,7 +42,8 @@ std::string milliseconds(double seconds) {
     return fmt::format("{:.0f}", 1e3 * seconds);
 }
 
-/// What a bake of the densest mesh may take for the goal, a quarter of what Embree alone takes for an RMSE of 0.05.
+/// Seconds that each phase of a bake of the densest mesh may take at an RMSE of 0.05. The goal is a quarter of the time
+/// of Embree alone.
 constexpr std::array<std::pair<std::string_view, double>, 5> budget{
     {{"start", 0.010}, {"read", 0.040}, {"grid", 0.130}, {"occlusion", 0.080}, {"write", 0.040}}};
 
@@ -64,16 +65,17 @@ std::string phases_table(const std::vector<Bake>& bakes) {
 
 constexpr std::string_view file_to_file_words = R"(## From file to file
 
-`alcove bake` on binary PLY, radius 10 %, beside a baker by Embree alone (the same reader and writer, low build
-quality, streams of rays, vertices along a curve), each with what holds an RMSE of E: of ours the cheapest of a few
-choices, without the pilot; beside it, what `--error E` took, which chooses for itself and measures its error.
+`alcove bake` on binary PLY, at a radius of 10 %, compared with a baker that uses Embree alone (the same reader and
+writer, low build quality, streams of rays, vertices along a Morton curve). Each uses settings that meet an RMSE of E:
+ours are the cheapest of a few measured choices, without the pilot; Embree alone gets as many rays as it needs. The
+column `--error E` is the time of a bake that chooses its settings itself and measures its error.
 
-| vertices | E | ours | RMSE | s | --error E, s | Embree's rays | RMSE | s | Embree : ours |
+| vertices | E | ours | RMSE | s | `--error E`, s | Embree, rays | RMSE | s | Embree : ours |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 {}
-Where the time of ours goes on the last mesh. The budget is for the first of them: the goal is a quarter of what Embree
-alone takes. Most of the start is the dynamic linker's, with the symbols of OpenVDB. Grids are of the surface clustered to
-what their voxels tell, where dozens of triangles share one.
+The phases of our bakes of the last mesh. The budget is for the first of these bakes: the goal is a quarter of the time
+of Embree alone. Most of the start is spent in the dynamic linker, on the symbols of OpenVDB. Where dozens of triangles
+share a voxel, the grid is built from clustered vertices, as fine as the voxels resolve.
 
 {}
 )";
@@ -85,11 +87,10 @@ std::string file_to_file_section(const std::vector<fs::path>& files) {
         std::vector<Bake> bakes;
         for (const double error : {0.05, 0.02, 0.005}) {
             const Comparison c = choices.compare(error);
-            rows +=
-                fmt::format("| {} | {} | {} | {:.4f} | {:.3f} | {:.3f} | {} | {:.4f} | {:.3f} | {:.2f} |\n",
-                            thousands(choices.vertices()), error, c.ours.choice.text(), c.ours.choice.rmse,
-                            c.ours.seconds, c.planned_seconds, c.rays, c.plain_rmse, c.plain_seconds,
-                            c.plain_seconds / c.ours.seconds);
+            rows += fmt::format("| {} | {} | {} | {:.4f} | {:.3f} | {:.3f} | {} | {:.4f} | {:.3f} | {:.2f} |\n",
+                                thousands(choices.vertices()), error, c.ours.choice.text(), c.ours.choice.rmse,
+                                c.ours.seconds, c.planned_seconds, c.rays, c.plain_rmse, c.plain_seconds,
+                                c.plain_seconds / c.ours.seconds);
             bakes.push_back(c.ours);
             std::cerr << file.filename().string() << " " << error << "\n";
         }
@@ -118,15 +119,14 @@ std::string voxelizing_section() {
             const auto ours = [&](const VoxelizeOptions& options) {
                 return warm_cpu_seconds_of([&] { voxelize(s.mesh, s.triangles, options); });
             };
-            const auto t =
-                medians({[&] { return ours(finest); }, [&] { return ours(far); },
-                         [&] {
-                             return warm_cpu_seconds_of([&] {
-                                 openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
-                                     *openvdb::math::Transform::createLinearTransform(1.0 / voxels),
-                                     mesh.points, mesh.triangles, 5.0f);
-                             });
-                         }});
+            const auto t = medians({[&] { return ours(finest); }, [&] { return ours(far); },
+                                    [&] {
+                                        return warm_cpu_seconds_of([&] {
+                                            openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
+                                                *openvdb::math::Transform::createLinearTransform(1.0 / voxels),
+                                                mesh.points, mesh.triangles, 5.0f);
+                                        });
+                                    }});
             const std::size_t active = voxelize(s.mesh, s.triangles, finest).levels.front().active_voxels;
             rows += fmt::format("| {} | {} | {} | {} | {:.0f} | {:.0f} | {:.1f} | {:.2f} |\n",
                                 thousands(s.triangles.size()), voxels, milliseconds(t[0]), milliseconds(t[2]),
@@ -135,29 +135,31 @@ std::string voxelizing_section() {
             std::cerr << "voxelizing " << s.triangles.size() << " " << voxels << "\n";
         }
     }
-    return fmt::format(
-        "## Voxelizing\n\nFrom an indexed mesh to an OpenVDB level set with a band of 5 voxels on "
-        "both sides, beside\n`openvdb::tools::meshToVolume` with its default flags, and all levels of "
-        "a radius of 50 % beside the finest.\n\n| triangles | voxels along D | ms | meshToVolume, ms | "
-        "ns a triangle | ns a voxel | meshToVolume : ours | all levels : finest |\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- |\n{}\n",
-        rows);
+    return fmt::format(R"(## Voxelizing
+
+From an indexed mesh to an OpenVDB level set with a band of 5 voxels on both sides, compared with
+`openvdb::tools::meshToVolume` with its default flags. The last column compares all levels for a radius of 50 % with the
+finest alone.
+
+| triangles | voxels along D | ms | meshToVolume, ms | ns per triangle | ns per voxel | meshToVolume : ours | all levels : finest |
+| --- | --- | --- | --- | --- | --- | --- | --- |
+{}
+)",
+                       rows);
 }
 
-std::string growth_table(std::string_view what, const std::vector<std::pair<std::string, Bake>>& bakes) {
+std::string scaling_table(std::string_view variable, const std::vector<std::pair<std::string, Bake>>& bakes) {
     std::string rows;
     for (const auto& [name, bake] : bakes)
-        rows += fmt::format("| {} | {} | {} | {} | {} | {:.2f} |\n", name,
-                            milliseconds(bake.phases.at("read")), milliseconds(bake.phases.at("grid")),
-                            milliseconds(bake.phases.at("occlusion")), milliseconds(bake.phases.at("write")),
-                            static_cast<double>(bake.peak_rss_bytes) / 1e9);
-    return fmt::format(
-        "| {} | read | grid | occlusion | write | peak, GB |\n| --- | --- | --- | --- | --- | --- "
-        "|\n{}\n",
-        what, rows);
+        rows += fmt::format("| {} | {} | {} | {} | {} | {:.2f} |\n", name, milliseconds(bake.phases.at("read")),
+                            milliseconds(bake.phases.at("grid")), milliseconds(bake.phases.at("occlusion")),
+                            milliseconds(bake.phases.at("write")), static_cast<double>(bake.peak_rss_bytes) / 1e9);
+    return fmt::format("| {} | read | grid | occlusion | write | peak, GB |\n| --- | --- | --- | --- | --- | --- "
+                       "|\n{}\n",
+                       variable, rows);
 }
 
-std::string growth_section(const fs::path& scratch, const fs::path& images) {
+std::string scaling_section(const fs::path& scratch, const fs::path& images) {
     const Choice calibrated{choose(find_method("calibrated"), 10), 1.0f / 256.0f, 0.0};
     std::vector<std::pair<std::string, Bake>> by_triangles, by_voxel, by_radius;
     Chart chart{"triangles", "seconds", {}, {}};
@@ -178,20 +180,24 @@ std::string growth_section(const fs::path& scratch, const fs::path& images) {
             mesh = subdivided(mesh);
     }
     for (const double voxels : {64.0, 128.0, 256.0, 512.0, 1024.0})
-        by_voxel.emplace_back(
-            fmt::format("{}", voxels),
-            bake_median(middle, {calibrated.method, static_cast<float>(1.0 / voxels), 0.0}, 0.1));
+        by_voxel.emplace_back(fmt::format("{}", voxels),
+                              bake_median(middle, {calibrated.method, static_cast<float>(1.0 / voxels), 0.0}, 0.1));
     for (const double radius : {0.02, 0.1, 0.5, 1.0})
-        by_radius.emplace_back(fmt::format("{:.0f} %", 100.0 * radius),
-                               bake_median(middle, calibrated, radius));
-    std::cerr << "growth\n";
+        by_radius.emplace_back(fmt::format("{:.0f} %", 100.0 * radius), bake_median(middle, calibrated, radius));
+    std::cerr << "scaling\n";
     write_text(images / "triangles.svg", svg(chart) + "\n");
-    return fmt::format(
-        "## How it grows\n\nMilliseconds of calibrated:10 at a voxel of 1/256 and a radius of 10 %, but for "
-        "what is said. There are half as many\nvertices as triangles.\n\n{}"
-        "![seconds by triangles](images/performance/triangles.svg)\n\n208 k triangles:\n\n{}{}",
-        growth_table("triangles", by_triangles), growth_table("voxels along D", by_voxel),
-        growth_table("radius", by_radius));
+    return fmt::format(R"(## Scaling
+
+Milliseconds of calibrated:10. The voxel is 1/256 and the radius 10 %, unless the first column says otherwise. There are
+half as many vertices as triangles.
+
+{}![seconds by triangles](images/performance/triangles.svg)
+
+With 208 k triangles:
+
+{}{})",
+                       scaling_table("triangles", by_triangles), scaling_table("voxels along D", by_voxel),
+                       scaling_table("radius", by_radius));
 }
 
 std::string twelve_million_section(const fs::path& folder, const fs::path& scratch) {
@@ -200,15 +206,17 @@ std::string twelve_million_section(const fs::path& folder, const fs::path& scrat
         mesh = subdivided(mesh);
     const fs::path file = scratch / "large.ply", baked = scratch / "large_ao.ply";
     write_mesh(displaced(std::move(mesh)), file);
-    const Run bake =
-        run({ALCOVE_PROGRAM, "bake", file, "-o", baked, "--threads", "1", "--error", "0.05", "--json"});
-    return fmt::format(
-        "## Twelve million triangles\n\ndiplodocus.off, each triangle split in four four times and moved by "
-        "noise, with `--error 0.05`: {}.\n\n",
-        outcome_of(bake));
+    const Run bake = run({ALCOVE_PROGRAM, "bake", file, "-o", baked, "--threads", "1", "--error", "0.05", "--json"});
+    return fmt::format(R"(## Twelve million triangles
+
+diplodocus.off, with each triangle split in four, four times over, and moved by noise, with `--error 0.05`:
+{}.
+
+)",
+                       outcome_of(bake));
 }
 
-/// A folder that goes with this.
+/// A temporary folder, removed on destruction.
 struct Scratch {
     fs::path folder = fs::temp_directory_path() / fmt::format("alcove-performance-{}", ::getpid());
 
@@ -234,9 +242,9 @@ void write_page(const fs::path& folder, const fs::path& docs) {
     std::string text(head);
     text += file_to_file_section(files);
     text += voxelizing_section();
-    text += floors_section(files.back());
+    text += baselines_section(files.back());
     text += twelve_million_section(folder, scratch.folder);
-    text += growth_section(scratch.folder, images);
+    text += scaling_section(scratch.folder, images);
     write_text(docs / "performance.md", text);
 }
 

@@ -1,4 +1,4 @@
-// What `alcove` is held against on docs/performance.md: a baker by Embree alone, from file to file.
+// The baker that docs/performance.md compares `alcove` with: Embree alone, from file to file.
 //
 //     alcove_plain_baker INPUT OUTPUT RADIUS RAYS
 #include "plain_embree.h"
@@ -22,10 +22,9 @@ int main(int argc, char** argv) {
         positions.reserve(surfels.size());
         for (const Surfel& surfel : surfels)
             positions.push_back(surfel.position);
-        const PlainEmbree tree(positions, triangles, RTC_BUILD_QUALITY_LOW);
+        const PlainEmbree bvh(positions, triangles, RTC_BUILD_QUALITY_LOW);
         mesh.set_attribute(
-            {"ao", 1,
-             tree.bake(surfels, std::stof(argv[3]), std::stoi(argv[4]), PlainEmbree::Calls::stream)});
+            {"ao", 1, bvh.bake(surfels, std::stof(argv[3]), std::stoi(argv[4]), PlainEmbree::Calls::stream)});
         write_mesh(mesh, argv[2]);
         return 0;
     } catch (const std::exception& error) {

@@ -1,14 +1,14 @@
-/// Pictures side by side.
+/// Images side by side.
 #pragma once
 
-#include <alcove/alcove.h>
+#include "alcove/render/image.h"
 
 #include <algorithm>
 #include <vector>
 
 namespace alcove::docs {
 
-/// The ao of pictures of one height, from left to right.
+/// Joins the ao of images of equal height, from left to right.
 inline Image row_of(const std::vector<Image>& tiles) {
     int width = 0;
     for (const Image& tile : tiles)

@@ -5,6 +5,9 @@
 #include "page.h"
 #include "row.h"
 
+#include "alcove/render/camera.h"
+#include "alcove/render/detail/painted.h"
+
 #include <alcove/alcove.h>
 
 #include <fmt/format.h>
@@ -22,32 +25,31 @@ using extremes::Result;
 
 constexpr std::string_view head = R"(# Stability
 
-Written by `tools/docs.sh stability`, from the table that the tests hold too (`tests/extremes`; `ctest -R Extremes`). Beside
-each case stands what must come of it. Figures are differences of ao, which is in [0, 1]: the largest at a
-vertex, or the RMSE over all, as the case says; radius 10 % of the diagonal D, voxel D/256 and standard settings unless said
-otherwise. *bumpy* is a closed surface of 4,098 vertices with bumps and hollows.
+Written by `tools/docs.sh stability`, from the table that the tests check too (`tests/extremes`; `ctest -R Extremes`).
+The second column is what each case must meet. Figures are differences of ao, which is in [0, 1]: the largest at any
+vertex, or the RMSE over all vertices, as the case says. The radius is 10 % of the diagonal D, the voxel D/256, and all
+other settings have their defaults, unless the case says otherwise. The *bumpy* surface is closed, with 4,098 vertices,
+bumps and hollows.
 
 )";
 
 const std::map<std::string_view, std::string_view> words{
-    {"scale", "The bumpy body, larger or smaller, from files with all digits of a double. Grids are made in "
-              "units of D, so only "
-              "rounding is left."},
-    {"offset", "The same body far from the origin. What the file itself loses there is in the last column."},
-    {"shape", "Flat, long and sharp bodies, whose ao is known."},
-    {"damage", "The bumpy body with something wrong."},
-    {"thin", "Walls, gaps and slots in voxels of D/256. Gaps between solids are told however narrow; walls "
-             "thinner than a voxel "
-             "and a half may not be, and rays pass them: a warning then names the voxel that tells them, and "
-             "the figure is that of "
-             "this voxel. Where memory has none, it names `guided`, whose rays meet the triangles, alone. "
-             "The picture shows fins of "
-             "half a voxel by `traced`, by `traced` with the voxel of the warning, and by `guided`.\n\n"
+    {"scale", "The bumpy surface, larger or smaller, read from files with all digits of a double. Grids are "
+              "built in units of D, so only rounding differs."},
+    {"offset", "The bumpy surface far from the origin. The last column shows what the file itself loses there."},
+    {"shape", "Flat, long and sharp shapes, whose ao is known."},
+    {"damage", "The bumpy surface with defects."},
+    {"thin", "Walls, gaps and slots; their sizes are in voxels of D/256. The grid resolves gaps between "
+             "solids, however narrow. It may miss walls thinner than a voxel and a half, and rays then "
+             "pass through them. In that case a warning names a voxel that resolves the walls, and the "
+             "figure is the error at that voxel. If that voxel does not fit into memory, the warning names "
+             "only `guided`, whose rays hit the triangles. The image shows fins of half a voxel by "
+             "`traced`, by `traced` at the voxel of the warning, and by `guided`.\n\n"
              "![fins of half a voxel](images/stability/fins.png)"},
-    {"setting", "Radii, voxels and numbers of rays from one end to the other, on the bumpy body."},
+    {"setting", "Radii, voxels and numbers of rays, from one extreme to the other, on the bumpy surface."},
 };
 
-/// `|` ends a cell.
+/// Escapes `|`, which would end a cell.
 std::string cell(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
         text.replace(at, 1, "\\|");
@@ -57,9 +59,9 @@ std::string cell(std::string text) {
 std::string figures_of(const Result& result) {
     std::string text;
     for (const Figure& figure : result.figures) {
-        const bool told = figure.bound > 0.0 || figure.value > 0.0;
+        const bool has_value = figure.bound > 0.0 || figure.value > 0.0;
         text += fmt::format("{}{}{}", text.empty() ? "" : ", ", figure.of,
-                            told                              ? fmt::format(" {:.2g}", figure.value)
+                            has_value                         ? fmt::format(" {:.2g}", figure.value)
                             : figure.of == "warnings missing" ? " 0"
                                                               : "");
         if (!figure.holds())
@@ -87,15 +89,15 @@ void write_stability(const std::filesystem::path& docs) {
     for (const Extreme& extreme : extremes::all_extremes()) {
         if (extreme.group != group) {
             group = extreme.group;
-            page += fmt::format("{}## {}\n\n{}\n\n| case | must | figures | |\n| --- | --- | --- | --- |\n",
+            page += fmt::format("{}## {}\n\n{}\n\n| case | requirement | figures | note |\n| --- | --- | --- | --- |\n",
                                 rows > 0 ? "\n" : "", group, words.at(group));
         }
         const Result result = extreme.run();
         ++rows;
         for (const Figure& figure : result.figures)
             over += !figure.holds();
-        page += fmt::format("| {} | {} | {} | {} |\n", cell(extreme.name), cell(extreme.must),
-                            figures_of(result), cell(result.note));
+        page += fmt::format("| {} | {} | {} | {} |\n", cell(extreme.name), cell(extreme.must), figures_of(result),
+                            cell(result.note));
         std::cerr << extreme.group << ": " << extreme.name << "\n";
     }
     page += fmt::format("\n{} cases, {} figures over their bound.\n", rows, over);

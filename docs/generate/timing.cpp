@@ -43,18 +43,18 @@ double warm_cpu_seconds_of(const std::function<void()>& work) {
     return process_seconds() - begin;
 }
 
-std::vector<double> medians(const std::vector<std::function<double()>>& takers, int rounds) {
-    std::vector<std::vector<double>> taken(takers.size());
+std::vector<double> medians(const std::vector<std::function<double()>>& timers, int rounds) {
+    std::vector<std::vector<double>> times_of(timers.size());
     for (int round = 0; round < rounds; ++round)
-        for (std::size_t i = 0; i < takers.size(); ++i)
-            taken[i].push_back(takers[i]());
-    std::vector<double> middle;
-    middle.reserve(taken.size());
-    for (std::vector<double>& times : taken) {
+        for (std::size_t i = 0; i < timers.size(); ++i)
+            times_of[i].push_back(timers[i]());
+    std::vector<double> result;
+    result.reserve(times_of.size());
+    for (std::vector<double>& times : times_of) {
         std::sort(times.begin(), times.end());
-        middle.push_back(times[times.size() / 2]);
+        result.push_back(times[times.size() / 2]);
     }
-    return middle;
+    return result;
 }
 
 Run run(const std::vector<std::string>& command) {
@@ -65,7 +65,7 @@ Run run(const std::vector<std::string>& command) {
     arguments.push_back(nullptr);
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw std::runtime_error("no pipe");
+        throw std::runtime_error("cannot create a pipe");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
@@ -79,7 +79,7 @@ Run run(const std::vector<std::string>& command) {
     int status = 1;
     rusage usage{};
     if (failed != 0 || ::wait4(child, &status, 0, &usage) != child || status != 0)
-        throw std::runtime_error(command[0] + " did not end well");
+        throw std::runtime_error(command[0] + " failed");
     result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     result.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     return result;

@@ -1,4 +1,5 @@
-/// CPU seconds of what is done here and by programs, in turns: the clock of a shared machine changes over minutes.
+/// CPU seconds of work in this process and of other programs. Things to compare take turns, because the clock rate of a
+/// shared machine drifts over minutes.
 #pragma once
 
 #include <cstddef>
@@ -8,20 +9,20 @@
 
 namespace alcove::docs {
 
-/// CPU seconds of all threads of this process, of the second time in a row: the first pays for memory that the machine
-/// has taken back meanwhile.
+/// CPU seconds of the second of two calls of `work`, over all threads of this process. The first call pays for memory
+/// that the system has reclaimed in the meantime.
 double warm_cpu_seconds_of(const std::function<void()>& work);
 
-/// Of each, the median of `rounds` in which they take turns. They return what they took.
-std::vector<double> medians(const std::vector<std::function<double()>>& takers, int rounds = 5);
+/// The median of what each timer returns, over `rounds` in which the timers take turns.
+std::vector<double> medians(const std::vector<std::function<double()>>& timers, int rounds = 5);
 
-/// A program that has ended well.
+/// A program that ended with exit code 0.
 struct Run {
     double cpu_seconds = 0.0, wall_seconds = 0.0;
     std::string output; ///< stdout
 };
 
-/// \throw std::runtime_error where it does not end with 0.
+/// \throw std::runtime_error if the program cannot start or ends with another code than 0.
 Run run(const std::vector<std::string>& command);
 
 }

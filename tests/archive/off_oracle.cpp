@@ -7,7 +7,7 @@
 namespace alcove::test {
 namespace {
 
-/// The next line that holds more than a comment.
+/// Reads the next line that is not just a comment.
 bool next_line(std::istream& input, std::istringstream& line) {
     for (std::string text; std::getline(input, text);) {
         text = text.substr(0, text.find('#'));

@@ -1,4 +1,4 @@
-/// A second, slow and simple reader of text OFF files, to hold the first one against.
+/// A slow and simple reader of text OFF files, as a reference for the reader of the library.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ struct PlainMesh {
     std::vector<std::vector<unsigned>> faces;
 };
 
-/// None for the variants of the format that it does not know, and for files that end early.
+/// Returns nullopt for variants of the format that it does not know, and for files that end early.
 std::optional<PlainMesh> read_plain_off(const std::filesystem::path& file);
 
 }

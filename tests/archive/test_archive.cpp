@@ -1,4 +1,4 @@
-// Bakes every mesh of the archive and compares what comes back with what went in; prints a line for each.
+// Bakes every mesh of the archive, compares the output with the input and prints a line for each.
 #include "off_oracle.h"
 
 #include "alcove/base/errors.h"
@@ -9,7 +9,7 @@
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/mesh/write.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/methods/reference/classic.h"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ class Archive : public testing::TestWithParam<std::string> {
     fs::path baked_ = fs::temp_directory_path() / fmt::format("alcove-archive-{}.ply", ::getpid());
 };
 
-/// Whether the file says itself that it holds points only.
+/// Whether the file declares no faces, only points.
 bool declares_no_faces(const fs::path& file) {
     if (file.extension() == ".off")
         return read_plain_off(file).value().faces.empty();
@@ -80,8 +80,7 @@ std::vector<float> column(const Mesh& mesh, const char* name) {
     }
     std::vector<float> values;
     for (std::size_t v = 0; v < vertices.count; ++v)
-        values.push_back(
-            static_cast<float>(number_at(vertices.rows.data() + v * row + offset, PlyType::float32)));
+        values.push_back(static_cast<float>(number_at(vertices.rows.data() + v * row + offset, PlyType::float32)));
     return values;
 }
 
@@ -90,12 +89,11 @@ void expect_same(const PlainMesh& wanted, const Mesh& mesh, double tolerance) {
     ASSERT_EQ(mesh.face_count(), wanted.faces.size());
     for (std::size_t v = 0; v < wanted.positions.size(); ++v)
         for (int axis = 0; axis < 3; ++axis)
-            ASSERT_NEAR(mesh.positions[v][axis], wanted.positions[v][static_cast<std::size_t>(axis)],
-                        tolerance)
+            ASSERT_NEAR(mesh.positions[v][axis], wanted.positions[v][static_cast<std::size_t>(axis)], tolerance)
                 << "vertex " << v;
     for (std::size_t f = 0; f < wanted.faces.size(); ++f)
-        ASSERT_TRUE(std::equal(wanted.faces[f].begin(), wanted.faces[f].end(), mesh.face(f).begin(),
-                               mesh.face(f).end()))
+        ASSERT_TRUE(
+            std::equal(wanted.faces[f].begin(), wanted.faces[f].end(), mesh.face(f).begin(), mesh.face(f).end()))
             << "face " << f;
 }
 
@@ -142,7 +140,7 @@ TEST_P(Archive, ComesBackWithOcclusionAndNothingElseChanged) {
     options.grid.voxel = 1.0f / 128;
     const GridStack stack = voxelize(mesh, triangles, options);
     const std::vector<Surfel> surfels = make_surfels(mesh, triangles, frame);
-    const std::vector<float> ao = bake(surfels, LevelStack(stack), Classic{});
+    const std::vector<float> ao = evaluate_ao(surfels, LevelStack(stack), Classic{});
     mesh.set_attribute({"ao", 1, ao});
     const std::vector<std::string> lost = write_mesh(mesh, baked_);
 
@@ -164,9 +162,8 @@ TEST_P(Archive, ComesBackWithOcclusionAndNothingElseChanged) {
     fmt::print("| {} | {:.2f} s | {:.0f} MB | {} vertices | {} faces | {} | ao {:.2f} to {:.2f}, mean {:.2f} "
                "|{}{} |\n",
                GetParam(), seconds.count(), peak_megabytes(), ao.size(), back.face_count(),
-               stack.sign == Sign::solid ? "solid" : "sheet", least, most,
-               sum / static_cast<double>(ao.size()), mesh.warnings.empty() ? "" : " " + mesh.warnings.front(),
-               lost.empty() ? "" : " " + lost.front());
+               stack.sign == Sign::solid ? "solid" : "sheet", least, most, sum / static_cast<double>(ao.size()),
+               mesh.warnings.empty() ? "" : " " + mesh.warnings.front(), lost.empty() ? "" : " " + lost.front());
 }
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {

@@ -1,4 +1,4 @@
-#include "alcove/bake/error_figures.h"
+#include "alcove/bake/detail/error_figures.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(ErrorFigures, AreThoseOfHandMadeValues) {
 }
 
 TEST(ErrorFigures, SayWhatMostDifferencesStayBelow) {
-    // 1/1000, ..., 200/1000 in an order of no meaning: 198 of 200 are 0.198 or less.
+    // 1/1000, ..., 200/1000 in shuffled order: 198 of 200 are 0.198 or less.
     std::vector<float> truth(200, 0.0f), values(200);
     for (std::size_t i = 0; i < 200; ++i)
         values[i * 77 % 200] = -static_cast<float>(i + 1) / 1000.0f;
@@ -37,7 +37,8 @@ TEST(ErrorFigures, OfTheBestConstantAreTheDeviationOfTheTruth) {
     std::vector<float> truth;
     for (int i = 0; i < 32; ++i)
         truth.push_back(static_cast<float>(i * i % 64) / 64.0f);
-    const float mean = std::accumulate(truth.begin(), truth.end(), 0.0f) / 32.0f; // exact: all are 64ths
+    const float mean =
+        std::accumulate(truth.begin(), truth.end(), 0.0f) / 32.0f; // exact: all values are multiples of 1/64
     const ErrorFigures figures = compare(std::vector<float>(32, mean), truth);
     EXPECT_NEAR(figures.rmse, figures.deviation, 1e-12);
     EXPECT_NEAR(figures.bias, 0.0, 1e-12);

@@ -1,4 +1,5 @@
 #include "alcove/bake/detail/pilot.h"
+#include "alcove/occlusion/methods/exact.h"
 
 #include "alcove/measure/measure.h"
 #include "alcove/occlusion/detail/subset.h"
@@ -13,7 +14,7 @@ namespace {
 
 constexpr float radius = 0.3f;
 
-/// Two spheres side by side, nearly touching: 2,052 vertices, open but between them.
+/// Two spheres side by side, nearly touching: 2,052 vertices, unoccluded except between the spheres.
 class Piloting : public testing::Test {
   protected:
     static Mesh two_spheres() {
@@ -31,7 +32,7 @@ class Piloting : public testing::Test {
 TEST_F(Piloting, FindsTheErrorOfAWholeBake) {
     ASSERT_GT(mesh_.surfels.size(), options.surfels);
     for (const int rays : {2, 16, 64}) {
-        const std::vector<float> ao = bake(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = rays});
+        const std::vector<float> ao = evaluate_ao(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = rays});
         double squares = 0.0;
         for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
             squares += std::pow(ao[truth_.vertices[i]] - truth_.ao[i], 2);
@@ -42,7 +43,7 @@ TEST_F(Piloting, FindsTheErrorOfAWholeBake) {
 }
 
 TEST_F(Piloting, TakesTheNoiseOfItsReferenceOffErrors) {
-    // Of few rays the reference is as far from the truth as what it is to judge.
+    // With few rays, the reference is as noisy as the values that it judges.
     const Pilot noisy(mesh_.surfels, mesh_.rays, radius, {.surfels = 2000, .rays = 16});
     std::vector<float> ao(mesh_.surfels.size());
     for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
@@ -65,7 +66,7 @@ TEST_F(Piloting, TellsHowHardATruthIs) {
     const double expected = std::sqrt(step * pilot_.rmse_of_exact(16, 3));
     EXPECT_NEAR(pilot_.difficulty(), expected, 0.1 * expected);
     const Pilot noisy(mesh_.surfels, mesh_.rays, radius, {.rays = 64});
-    EXPECT_NEAR(noisy.difficulty(), expected, 0.15 * expected) << "however many surfels and rays tell it";
+    EXPECT_NEAR(noisy.difficulty(), expected, 0.15 * expected) << "independent of the numbers of surfels and rays";
 }
 
 TEST(PilotFor, TakesMoreRaysOfFewerSurfelsTheSmallerTheError) {
@@ -82,7 +83,7 @@ TEST(PilotFor, TakesMoreRaysOfFewerSurfelsTheSmallerTheError) {
 }
 
 TEST_F(Piloting, TellsSmallErrorsOfManyRaysByMany) {
-    const std::vector<float> ao = bake(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = 1024});
+    const std::vector<float> ao = evaluate_ao(mesh_.surfels, mesh_.rays, Exact{.radius = radius, .rays = 1024});
     const double known = Pilot(mesh_.surfels, mesh_.rays, radius, {.surfels = 4096, .rays = 4096}).rmse(ao);
     ASSERT_GT(known, 0.0);
     EXPECT_NEAR(Pilot(mesh_.surfels, mesh_.rays, radius, pilot_beside(1024)).rmse(ao), known, 0.5 * known);

@@ -1,4 +1,4 @@
-#include "alcove/bake/detail/planned_bake.h"
+#include "alcove/bake/detail/planner.h"
 
 #include "alcove/bake/detail/plan_table.h"
 #include "alcove/base/errors.h"
@@ -31,20 +31,20 @@ class Planning : public testing::Test {
         Plan plan;
         double seconds; ///< of all bakes
     };
-    /// Where each bake comes to what is expected.
+    /// The first plan that meets the error if every bake has exactly its expected error.
     Expected expected(const PlanRequest& wanted) const {
         Planner planner(wanted, pilot_);
         Expected result{planner.next(), 0.0};
         result.seconds = result.plan.seconds;
-        while (result.plan.rmse > wanted.error) { // tried before what is expected to hold the error
-            planner.learn(result.plan, result.plan.rmse);
+        while (result.plan.rmse > wanted.error) { // trials before the plan that is expected to meet the error
+            planner.update(result.plan, result.plan.rmse);
             result.plan = planner.next();
             result.seconds += result.plan.seconds;
         }
         return result;
     }
 
-    MeasuredMesh mesh_{"bunny00", test::RealMesh("bunny00.off").mesh}; // the table never saw it
+    MeasuredMesh mesh_{"bunny00", test::RealMesh("bunny00.off").mesh}; // the table was not measured on it
     Pilot pilot_{mesh_.surfels, mesh_.rays, radius};
 };
 
@@ -69,7 +69,7 @@ TEST_F(Planning, ProbesWhereAGridIsThereOrMeshesAreLarge) {
     EXPECT_TRUE(Planner(wanted, pilot_).next().choice.method->needs_grid);
     wanted.has_grid = false;
     wanted.error = 0.01;
-    wanted.surfels = 100'000'000; // of the same triangles: rays cost, the grid does not
+    wanted.surfels = 100'000'000; // with the same triangles: rays dominate the cost, not the grid
     const Plan plan = Planner(wanted, pilot_).next();
     EXPECT_EQ(plan.choice.method->name, "guided");
     EXPECT_GT(plan.largest_voxel, 0.0f);
@@ -108,19 +108,19 @@ TEST_F(Planning, ChoosesCountsOfRaysBetweenThoseOfTheTable) {
 
 TEST_F(Planning, TriesAFewRaysBeforeMany) {
     PlanRequest wanted = request(0.009);
-    wanted.surfels = 100'000'000; // of the same triangles: rays cost, the grid does not
+    wanted.surfels = 100'000'000; // with the same triangles: rays dominate the cost, not the grid
     Planner planner(wanted, pilot_);
     const Plan few = planner.next();
     ASSERT_EQ(few.choice.method->name, "guided");
     EXPECT_GT(few.rmse, wanted.error);
-    planner.learn(few, few.rmse);
+    planner.update(few, few.rmse);
     const Plan as_expected = planner.next();
     EXPECT_EQ(as_expected.choice.method->name, "guided");
     EXPECT_LE(as_expected.rmse, wanted.error);
     EXPECT_GE(as_expected.choice.rays(), 3 * few.choice.rays());
 
     Planner lucky(wanted, pilot_);
-    lucky.learn(lucky.next(), 0.8 * few.rmse);
+    lucky.update(lucky.next(), 0.8 * few.rmse);
     EXPECT_LT(lucky.next().choice.rays(), as_expected.choice.rays());
 }
 
@@ -140,12 +140,12 @@ TEST_F(Planning, TriesWhatIsFarCheaperAndMayHoldTheError) {
         EXPECT_EQ(Planner(wanted, pilot_).next().choice, choice) << over;
     }
     Planner planner(wanted, pilot_);
-    planner.learn(planner.next(), rmse);
+    planner.update(planner.next(), rmse);
     const Plan sure = planner.next();
-    EXPECT_LE(sure.rmse, wanted.error) << "only one of a method is hoped for";
+    EXPECT_LE(sure.rmse, wanted.error) << "at most one plan per method is a trial";
 
     wanted.error = rmse / 2.0;
-    EXPECT_NE(Planner(wanted, pilot_).next().choice, choice) << "too far from it";
+    EXPECT_NE(Planner(wanted, pilot_).next().choice, choice) << "too unlikely to meet the error";
 }
 
 TEST_F(Planning, LearnsFromWhatItTried) {
@@ -156,11 +156,11 @@ TEST_F(Planning, LearnsFromWhatItTried) {
     Plan plan = planner.next();
     while (plan.largest_voxel > 0.0f) {
         EXPECT_TRUE(tried.insert(plan.choice.label()).second) << "tried again: " << plan.choice.label();
-        planner.learn(plan, 0.2);
+        planner.update(plan, 0.2);
         plan = planner.next();
     }
     EXPECT_EQ(plan.choice.method->name, "exact");
-    EXPECT_LE(tried.size(), 2u) << "one of guided and one of calibrated tell that none will do";
+    EXPECT_LE(tried.size(), 2u) << "one bake each of guided and calibrated rules out the rest";
 }
 
 TEST_F(Planning, KeepsToMethodsThatGiveWhatIsWanted) {
@@ -170,47 +170,67 @@ TEST_F(Planning, KeepsToMethodsThatGiveWhatIsWanted) {
     EXPECT_NE(Planner(wanted, pilot_).next().choice.method->name, "calibrated");
 }
 
-TEST_F(Planning, BakesByExactRaysWhereNoGridCanBeMade) {
-    int asked = 0;
-    const MakeField refuse = [&](float) -> AnyField {
-        ++asked;
-        throw LimitError("too many triangles");
-    };
-    PlanRequest wanted = request(0.01);
-    wanted.triangles = 1000; // as if grids were cheaper than they are
-    const PlannedBake planned = bake_planned(mesh_.surfels, mesh_.rays, refuse, pilot_, wanted);
-    EXPECT_EQ(planned.plan.choice.method->name, "exact");
-    EXPECT_LE(planned.rmse, wanted.error);
-    EXPECT_GE(asked, 1);
-    EXPECT_LE(asked, 2) << "more than once for a voxel";
+TEST_F(Planning, ViaGridAvoidsExactRaysUnlessTheFieldCostsFarMore) {
+    PlanRequest wanted = request(0.03);
+    wanted.via = Via::grid;
+    const Plan field = Planner(wanted, pilot_).next();
+    EXPECT_TRUE(field.choice.method->needs_grid) << "a fraction of a second more is allowed";
+    EXPECT_EQ(field.reason, "");
+
+    wanted.area = 1e4; // a grid that takes many seconds, for few surfels
+    const Plan exact = Planner(wanted, pilot_).next();
+    EXPECT_EQ(exact.choice.method->name, "exact");
+    EXPECT_NE(exact.reason.find("would cost about"), std::string::npos) << exact.reason;
+
+    wanted = request(0.03);
+    wanted.via = Via::grid;
+    wanted.finest_voxel = INFINITY;
+    EXPECT_NE(Planner(wanted, pilot_).next().reason.find("no grid"), std::string::npos);
 }
 
-TEST_F(Planning, BakesHoldTheirErrorWhateverTheField) {
-    const Truth truth = make_truth(mesh_, radius, {.rays = 1024, .most = 5000});
-    int made = 0;
-    for (const bool useful : {true, false}) {
-        const MakeField make_field = [&](float voxel) -> AnyField {
-            ++made;
-            if (useful)
-                return build_grid(mesh_, radius, chosen_voxel(radius, voxel)).field;
-            return Plane{{0, 1, 0}, -10.0f};
-        };
-        for (const double error : {0.05, 0.03}) {
-            PlanRequest wanted = request(error);
-            wanted.has_grid = true;
-            made = 0;
-            const PlannedBake planned = bake_planned(mesh_.surfels, mesh_.rays, make_field, pilot_, wanted);
-            std::vector<float> values;
-            for (const std::uint32_t vertex : truth.vertices)
-                values.push_back(planned.values[Channel::ao][vertex]);
-            const double rmse = compare(values, truth.ao).rmse;
-            EXPECT_LE(rmse, 1.15 * error) << planned.plan.choice.label();
-            EXPECT_NEAR(planned.rmse, rmse, 0.3 * rmse) << planned.plan.choice.label();
-            EXPECT_EQ(made, 1);
-            if (useful)
-                EXPECT_NE(planned.plan.choice.method->name, "exact") << error;
-            else
-                EXPECT_FALSE(planned.failed.empty()) << error;
+TEST_F(Planning, ViaGridRaisesRaysOfGuidedAndThenTakesExact) {
+    PlanRequest wanted = request(0.02);
+    wanted.via = Via::grid;
+    Planner planner(wanted, pilot_);
+    Plan plan = planner.next();
+    int tries = 0;
+    for (; plan.largest_voxel > 0.0f && tries < 50; ++tries) {
+        EXPECT_FALSE(planner.is_last(plan));
+        planner.update(plan, 0.2);
+        plan = planner.next();
+    }
+    EXPECT_EQ(plan.choice.method->name, "exact");
+    EXPECT_TRUE(planner.is_last(plan));
+    EXPECT_NE(plan.reason.find("missed"), std::string::npos) << plan.reason;
+    EXPECT_LE(tries, 3);
+
+    Planner close(wanted, pilot_);
+    const Plan first = close.next();
+    close.update(first, 1.05 * wanted.error);
+    EXPECT_NE(close.next().choice.method->name, "exact") << "a few more rays suffice";
+}
+
+TEST_F(Planning, ViaMeshTakesExactRays) {
+    PlanRequest wanted = request(0.05);
+    wanted.via = Via::mesh;
+    wanted.surfels = 100'000'000;
+    const Plan plan = Planner(wanted, pilot_).next();
+    EXPECT_EQ(plan.choice.method->name, "exact");
+    EXPECT_EQ(plan.reason, "");
+}
+
+TEST_F(Planning, KeepsToTheNamedMethod) {
+    for (const char* name : {"exact", "guided", "calibrated"}) {
+        PlanRequest wanted = request(0.02);
+        wanted.via = Via::grid;
+        wanted.method = &find_method(name);
+        Planner planner(wanted, pilot_);
+        for (int tries = 0; tries < 40; ++tries) {
+            const Plan plan = planner.next();
+            ASSERT_EQ(plan.choice.method->name, name);
+            if (planner.is_last(plan))
+                break;
+            planner.update(plan, 0.2);
         }
     }
 }

@@ -17,8 +17,7 @@ Baked read_baked(const std::filesystem::path& file) {
         stride += size_of(property.type);
     }
     for (std::size_t v = 0; v < baked.mesh.vertex_count(); ++v)
-        baked.ao.push_back(
-            static_cast<float>(number_at(vertices.rows.data() + v * stride + offset, PlyType::float32)));
+        baked.ao.push_back(static_cast<float>(number_at(vertices.rows.data() + v * stride + offset, PlyType::float32)));
     return baked;
 }
 

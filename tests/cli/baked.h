@@ -1,4 +1,4 @@
-/// What bake left in a .ply, and meshes for it to work on.
+/// Reads the output of `alcove bake` and creates meshes to bake.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -7,7 +7,7 @@
 
 namespace alcove::test {
 
-/// A mesh that bake wrote, and its `ao`.
+/// A mesh written by bake, and its `ao`.
 struct Baked {
     Mesh mesh;
     std::vector<float> ao;

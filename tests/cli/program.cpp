@@ -79,18 +79,18 @@ pid_t ProgramTest::start(std::vector<std::string> arguments) const {
 
     const pid_t child = ::fork();
     if (child == 0) {
-        // Only what is safe between fork and exec.
+        // Only async-signal-safe calls between fork and exec.
         ::close(STDIN_FILENO);
         const int output = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         const int errors = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
         ::dup2(output, STDOUT_FILENO);
         ::dup2(errors, STDERR_FILENO);
-        if (largest_file_ > 0) {
-            const rlimit limit{largest_file_, largest_file_};
+        if (max_file_size_ > 0) {
+            const rlimit limit{max_file_size_, max_file_size_};
             ::setrlimit(RLIMIT_FSIZE, &limit);
         }
-        if (most_memory_ > 0) {
-            const rlimit limit{most_memory_, most_memory_};
+        if (max_memory_ > 0) {
+            const rlimit limit{max_memory_, max_memory_};
             ::setrlimit(RLIMIT_AS, &limit);
         }
         ::prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);

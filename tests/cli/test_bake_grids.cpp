@@ -16,7 +16,7 @@ namespace {
 
 class BakeGrids : public ProgramTest {
   protected:
-    /// A sphere of radius 2 around (5, 6, 7) as a mesh and as a level set that reaches `radius`.
+    /// A sphere of radius 2 around (5, 6, 7), as a mesh and as a level set for that radius of occlusion.
     void write_sphere(float voxel, float radius) const {
         Mesh mesh;
         add_part(mesh, sphere_mesh(4), 2.0, center_);
@@ -37,30 +37,26 @@ TEST_F(BakeGrids, AGridIsMeshedAtItsZeroSurfaceAndBaked) {
         ASSERT_GT(baked.ao.size(), 1000u);
         for (const float ao : baked.ao)
             EXPECT_NEAR(ao, 1.0f, 0.01f);
-        // The diagonal is that of the box around the vertices.
+        // The diagonal is that of the bounding box of the vertices.
         EXPECT_NEAR(outcome.json().at("radius").get<double>(), 0.1 * baked.mesh.box().diagonal(), 1e-5);
         for (std::size_t f = 0; f < baked.mesh.face_count(); ++f)
             ASSERT_EQ(baked.mesh.face(f).size(), 4u);
     }
     ASSERT_EQ(run({"bake", "sphere.vdb", "-o", "b.ply", "--adaptivity", "0.5"}).code, done);
-    EXPECT_LT(read_mesh(folder_ / "work/b.ply").face_count(),
-              read_mesh(folder_ / "work/a.ply").face_count() / 4);
+    EXPECT_LT(read_mesh(folder_ / "work/b.ply").face_count(), read_mesh(folder_ / "work/a.ply").face_count() / 4);
 }
 
 TEST_F(BakeGrids, AThinBandIsExtendedWithAWarning) {
     write_sphere(1.0f / 90.0f, 0.02f);
-    const Outcome outcome =
-        run({"bake", "sphere.vdb", "-o", "a.ply", "--radius", "100%", "--method", "classic"});
+    const Outcome outcome = run({"bake", "sphere.vdb", "-o", "a.ply", "--radius", "100%", "--method", "classic"});
     ASSERT_EQ(outcome.code, done) << outcome.err;
-    EXPECT_NE(outcome.err.find("warning: sphere.vdb holds distances up to"), std::string::npos)
-        << outcome.err;
+    EXPECT_NE(outcome.err.find("the grid stores distances only up to"), std::string::npos) << outcome.err;
     for (const float ao : read_baked(folder_ / "work/a.ply").ao)
         EXPECT_NEAR(ao, 1.0f, 0.01f);
 }
 
 TEST_F(BakeGrids, ASavedGridGivesTheBytesOfTheBakeThatSavedIt) {
-    for (const auto& [name, method] :
-         {std::pair("elephant.off", "traced"), std::pair("fandisk.off", "classic")}) {
+    for (const auto& [name, method] : {std::pair("elephant.off", "traced"), std::pair("fandisk.off", "classic")}) {
         const std::vector<std::string> common{"bake", real_mesh(name), "--method", method};
         const auto with = [&](std::vector<std::string> more) {
             more.insert(more.begin(), common.begin(), common.end());
@@ -82,16 +78,16 @@ TEST_F(BakeGrids, ADenseMeshIsThinnedUnlessItsGridIsKept) {
         EXPECT_EQ(outcome.code, done) << outcome.err;
         return outcome;
     };
-    EXPECT_TRUE(bake({"--voxel", "5%", "--json"}).json().at("thinned").get<bool>());
-    EXPECT_NE(bake({"--voxel", "5%"}).out.find(", thinned to half of it"), std::string::npos);
+    EXPECT_TRUE(bake({"--voxel", "5%", "--json"}).json().at("clustered").get<bool>());
+    EXPECT_NE(bake({"--voxel", "5%"}).out.find(", clustered to half of it"), std::string::npos);
     for (const float ao : read_baked(folder_ / "work/a.ply").ao)
         EXPECT_NEAR(ao, 1.0f, 0.01f);
-    EXPECT_FALSE(bake({"--voxel", "5%", "--json", "--write-grid", "g.vdb"}).json().at("thinned").get<bool>());
-    EXPECT_FALSE(bake({"--json", "--voxel", "0.5%"}).json().at("thinned").get<bool>());
+    EXPECT_FALSE(bake({"--voxel", "5%", "--json", "--write-grid", "g.vdb"}).json().at("clustered").get<bool>());
+    EXPECT_FALSE(bake({"--json", "--voxel", "0.5%"}).json().at("clustered").get<bool>());
 }
 
 TEST_F(BakeGrids, AGridOfAnotherFrameServesItsMesh) {
-    // The sphere's own grid for one half of it: another box, another diagonal.
+    // The grid of the whole sphere for one half of it: the bounding boxes, and so the diagonals, differ.
     write_sphere(1.0f / 200.0f, 0.2f);
     Mesh half;
     add_part(half, sphere_mesh(4, [](const Vec3d& p) { return p.y > 0.0; }), 2.0, center_);
@@ -108,8 +104,7 @@ TEST_F(BakeGrids, TheGridOfAnotherMeshIsNoticed) {
     write("cube.off", cube_off);
     const Outcome outcome = run({"bake", "cube.off", "-o", "a.ply", "--grid", "sphere.vdb"});
     EXPECT_EQ(outcome.code, done);
-    EXPECT_NE(outcome.err.find("8 of 8 vertices are more than two voxels off"), std::string::npos)
-        << outcome.err;
+    EXPECT_NE(outcome.err.find("8 of 8 vertices are more than two voxels off"), std::string::npos) << outcome.err;
 }
 
 TEST_F(BakeGrids, RefusesWhatCannotBeMeant) {
@@ -119,15 +114,14 @@ TEST_F(BakeGrids, RefusesWhatCannotBeMeant) {
         more.insert(more.end(), {"-o", "a.ply"});
         expect_refusal(more, usage, parts);
     };
-    refused({"none.vdb", "--grid", "other.vdb"}, {"--grid is for meshes", "none.vdb"});
-    refused({"none.vdb", "--voxel", "1%"}, {"--voxel", "none.vdb is a grid already"});
-    refused({"none.ply", "--grid", "g.vdb", "--sign", "signed"}, {"--sign", "g.vdb is a grid already"});
-    refused({"none.vdb", "--self"}, {"--self", "none.vdb"});
+    refused({"none.vdb", "--grid", "other.vdb"}, {"--grid is for meshes"});
+    refused({"none.vdb", "--voxel", "1%"}, {"--voxel", "grid already"});
+    refused({"none.ply", "--grid", "g.vdb", "--sign", "solid"}, {"--sign", "grid already"});
+    refused({"none.vdb", "--self"}, {"--self", "grid"});
     refused({"none.ply", "--adaptivity", "0.5"}, {"--adaptivity is for grids"});
     refused({"none.vdb", "--adaptivity", "2"}, {"--adaptivity", "2"});
     expect_refusal({"bake", "none.vdb", "-o", "a.ply"}, bad_input, {"none.vdb", "cannot be opened"});
-    expect_refusal({"bake", "cube.off", "-o", "a.ply", "--grid", "cube.off"}, bad_input,
-                   {"no readable .vdb"});
+    expect_refusal({"bake", "cube.off", "-o", "a.ply", "--grid", "cube.off"}, bad_input, {"not a readable .vdb"});
 
     write_mesh(floor_mesh(1.0, 4), folder_ / "work/floor.ply");
     ASSERT_EQ(run({"voxelize", "floor.ply", "-o", "floor.vdb"}).code, done);

@@ -58,9 +58,8 @@ TEST_F(BakeVerb, GivesTheSameBytesWithAnyNumberOfThreads) {
     for (const char* method : {"classic", "hemisphere", "traced"}) {
         std::set<std::string> results;
         for (const char* threads : {"1", "2", "3"}) {
-            const Outcome outcome =
-                run({"bake", real_mesh("elephant.off"), "-o", "a.ply", "--method", method, "--attributes",
-                     "ao,convexity,bent_normal,thickness", "--threads", threads});
+            const Outcome outcome = run({"bake", real_mesh("elephant.off"), "-o", "a.ply", "--method", method,
+                                         "--attributes", "ao,convexity,bent_normal,thickness", "--threads", threads});
             ASSERT_EQ(outcome.code, done) << outcome.err;
             results.insert(bytes_of("a.ply"));
         }
@@ -76,7 +75,7 @@ TEST_F(BakeVerb, LeavesTheOldFileAsItWasAfterAFailure) {
     expect_refusal({"bake", "broken.off", "-o", "a.ply"}, bad_input, {"broken.off"});
     expect_refusal({"bake", "cube.off", "-o", "a.ply", "--voxel", "1e-9"}, bad_input, {"--voxel"});
     expect_refusal({"bake", "cube.off", "-o", "a.ply", "--method", "none at all"}, usage, {"none at all"});
-    largest_file_ = 4096;
+    max_file_size_ = 4096;
     expect_refusal({"bake", real_mesh("elephant.off"), "-o", "a.ply"}, failure, {"a.ply: cannot be written"});
     EXPECT_EQ(bytes_of("a.ply"), "what was here before");
     EXPECT_EQ(files(), (std::vector<std::string>{"a.ply", "broken.off", "cube.off"}));
@@ -99,7 +98,7 @@ TEST_F(BakeVerb, WorksInPlaceAndAddsNothingTwice) {
 }
 
 TEST_F(BakeVerb, WritesVisibilityUnderTheNamesOthersRead) {
-    // A cube is convex: nothing is hidden from any vertex.
+    // A cube is convex: nothing occludes any vertex.
     write("cube.off", cube_off);
     ASSERT_EQ(run({"bake", "cube.off", "-o", "a.ply"}).code, done);
     const Mesh mesh = read_mesh(folder_ / "work/a.ply");
@@ -134,9 +133,8 @@ TEST_F(BakeVerb, KeepsTheColoursAndQualityOfTheInput) {
 }
 
 TEST_F(BakeVerb, WritesObjWithColoursAndEveryOtherLineOfTheInput) {
-    write("cube.obj",
-          "# made by hand\nmtllib cube.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\n"
-          "f 1/1 2/1 3/1\n");
+    write("cube.obj", "# made by hand\nmtllib cube.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\n"
+                      "f 1/1 2/1 3/1\n");
     ASSERT_EQ(run({"bake", "cube.obj", "-o", "a.obj"}).code, done);
     const std::string text = bytes_of("a.obj");
     for (const char* line : {"# made by hand\n", "mtllib cube.mtl\n", "o cube\n", "vt 0 0\n", "usemtl red\n",

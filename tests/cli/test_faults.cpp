@@ -1,4 +1,4 @@
-/// Whatever ends a run, the file that was there before is as it was, or the new one is whole.
+/// However a run ends, the output file is either the unchanged old one or a complete new one.
 #include "program.h"
 
 #include <chrono>
@@ -8,24 +8,25 @@
 namespace alcove::test {
 namespace {
 
-/// What a verb is told beside its output.
+/// A verb with its arguments, except the name of the output.
 struct Job {
     const char* name;
     std::vector<std::string> arguments; ///< a few seconds of work
-    std::string output;                 ///< follows an option, the last of the arguments
+    std::string output;                 ///< appended to the arguments, the last of which is an option
 
     friend void PrintTo(const Job& job, std::ostream* out) { *out << job.name; }
 };
 
 std::vector<Job> jobs() {
     const std::string mesh = real_mesh("armadillo.off");
-    return {{"BakePly", {"bake", mesh, "--rays", "2048", "-o"}, "out.ply"},
-            {"BakeObj", {"bake", mesh, "--rays", "2048", "-o"}, "out.obj"},
-            {"WriteGrid", {"bake", mesh, "--voxel", "0.15%", "-o", "other.ply", "--write-grid"}, "out.vdb"},
-            {"Voxelize", {"voxelize", mesh, "--voxel", "0.1%", "-o"}, "out.vdb"},
-            {"RenderExr", {"render", mesh, "--size", "1600x1200", "--rays", "256", "-o"}, "out.exr"},
-            {"RenderPng", {"render", mesh, "--size", "1600x1200", "--rays", "256", "-o"}, "out.png"},
-            {"MeasureReport", {"measure", mesh, "--report"}, "out.html"}};
+    return {
+        {"BakePly", {"bake", mesh, "--method", "traced", "--rays", "2048", "-o"}, "out.ply"},
+        {"BakeObj", {"bake", mesh, "--method", "traced", "--rays", "2048", "-o"}, "out.obj"},
+        {"WriteGrid", {"bake", mesh, "--voxel", "0.15%", "-o", "other.ply", "--write-grid"}, "out.vdb"},
+        {"Voxelize", {"voxelize", mesh, "--voxel", "0.1%", "-o"}, "out.vdb"},
+        {"RenderExr", {"render", mesh, "--size", "1600x1200", "--method", "traced", "--rays", "256", "-o"}, "out.exr"},
+        {"RenderPng", {"render", mesh, "--size", "1600x1200", "--method", "traced", "--rays", "256", "-o"}, "out.png"},
+        {"MeasureReport", {"measure", mesh, "--report"}, "out.html"}};
 }
 
 class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
@@ -37,7 +38,7 @@ class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
-    /// With less to do.
+    /// The same verbs with less work.
     std::vector<std::string> quick_arguments(const std::vector<std::string>& more = {}) const {
         std::vector<std::string> all = arguments(more);
         for (std::string& word : all)
@@ -52,12 +53,11 @@ class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
         for (const std::string& file : files())
             EXPECT_FALSE(file.starts_with(".alcove-")) << file;
     }
-    /// Of an output that is seen to be out of reach before any work.
+    /// An output path that cannot be written is detected before any work.
     void expect_failure_at_once() const {
         const Outcome outcome = run(arguments({"--time-limit", "1"}));
         EXPECT_EQ(outcome.code, failure) << outcome.err;
-        EXPECT_NE(outcome.err.find(": cannot be written: Permission denied"), std::string::npos)
-            << outcome.err;
+        EXPECT_NE(outcome.err.find(": cannot be written: Permission denied"), std::string::npos) << outcome.err;
         expect_one_line(outcome);
         expect_untouched();
     }
@@ -73,7 +73,7 @@ class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
 };
 
 TEST_P(Faults, FullDisk) {
-    largest_file_ = 4096;
+    max_file_size_ = 4096;
     const Outcome outcome = run(quick_arguments());
     EXPECT_EQ(outcome.code, failure) << outcome.err;
     expect_one_line(outcome);
@@ -83,7 +83,7 @@ TEST_P(Faults, FullDisk) {
 TEST_P(Faults, TimeIsUp) {
     for (const char* seconds : {"0.001", "0.2", "0.4"}) {
         const Outcome outcome = run(arguments({"--time-limit", seconds}));
-        EXPECT_EQ(outcome.code, failure) << outcome.err; // ended, or not begun
+        EXPECT_EQ(outcome.code, failure) << outcome.err; // failed or refused
         expect_one_line(outcome);
         EXPECT_NE(outcome.err.find("--time-limit"), std::string::npos) << outcome.err;
         expect_untouched();
@@ -101,11 +101,11 @@ TEST_P(Faults, Interrupted) {
     }
 }
 
-/// A signal that comes after the file took its name leaves the new one.
+/// A signal after the file was renamed into place leaves the new file.
 TEST_P(Faults, InterruptedWhileItWrites) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Outcome outcome = run_until_part(quick_arguments(), signal);
-        if (outcome.code == done) // before the signal came
+        if (outcome.code == done) // before the signal arrived
             continue;
         EXPECT_EQ(outcome.code, -signal) << outcome.err;
         expect_no_parts();
@@ -113,27 +113,26 @@ TEST_P(Faults, InterruptedWhileItWrites) {
     }
 }
 
-/// What no program can clean up after is left beside the old file.
+/// SIGKILL allows no cleanup: the partial file stays next to the old one.
 TEST_P(Faults, Killed) {
     EXPECT_EQ(run_until(arguments(), SIGKILL, 300).code, -SIGKILL);
     EXPECT_TRUE(bytes_of(GetParam().output) == old_);
 }
 
-/// Where it suffices, the work is done.
+/// If memory suffices, the run succeeds.
 TEST_P(Faults, LittleMemory) {
     if (GetParam().output == "out.html")
-        GTEST_SKIP() << "a report is written whole, and tells itself what did not fit in memory";
+        GTEST_SKIP() << "a report is always complete and states what did not fit in memory";
     int refused = 0;
     for (const std::size_t megabytes : {160, 180, 200, 230, 260}) {
-        most_memory_ = megabytes << 20;
+        max_memory_ = megabytes << 20;
         const Outcome outcome = run(quick_arguments({"--threads", "1"}));
         if (outcome.code == done)
             break;
         ++refused;
-        // c-blosc 1.21 does not look whether it got memory.
+        // c-blosc 1.21 does not check whether allocations succeeded.
         if (outcome.code != -SIGSEGV || GetParam().output != "out.vdb") {
-            EXPECT_TRUE(outcome.code == failure || outcome.code == bad_input)
-                << megabytes << ": " << outcome.code;
+            EXPECT_TRUE(outcome.code == failure || outcome.code == bad_input) << megabytes << ": " << outcome.code;
             expect_one_line(outcome);
         }
         expect_untouched();

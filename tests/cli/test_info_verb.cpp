@@ -32,13 +32,12 @@ TEST_F(InfoVerb, CountsWhatAMeshHolds) {
 }
 
 TEST_F(InfoVerb, NamesEveryPropertyAndWhatIsWrong) {
-    write("scan.ply",
-          "ply\nformat ascii 1.0\ncomment from a laser\nelement vertex 5\nproperty float x\n"
-          "property float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
-          "property double confidence\nelement face 2\nproperty list uchar int vertex_indices\n"
-          "property uchar flags\nend_header\n"
-          "0 0 0 0 0 1 1\n1 0 0 0 0 1 1\n1 1 0 0 0 1 1\n0 1 0 0 0 1 1\nnan 0 0 0 0 1 1\n"
-          "3 0 1 2 7\n3 0 2 3 7\n");
+    write("scan.ply", "ply\nformat ascii 1.0\ncomment from a laser\nelement vertex 5\nproperty float x\n"
+                      "property float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                      "property double confidence\nelement face 2\nproperty list uchar int vertex_indices\n"
+                      "property uchar flags\nend_header\n"
+                      "0 0 0 0 0 1 1\n1 0 0 0 0 1 1\n1 1 0 0 0 1 1\n0 1 0 0 0 1 1\nnan 0 0 0 0 1 1\n"
+                      "3 0 1 2 7\n3 0 2 3 7\n");
     const nlohmann::json scan = run({"info", "scan.ply", "--json"}).json();
     EXPECT_EQ(scan.at("format"), "PLY");
     EXPECT_EQ(scan.at("normals"), true);
@@ -82,7 +81,7 @@ TEST_F(InfoVerb, MeasuresAGridInTheUnitsOfTheScene) {
         EXPECT_EQ(level.at("active_voxels"), written.at("levels").at(i).at("active_voxels"));
         EXPECT_NEAR(level.at("band").get<double>(), voxel * level.at("band_voxels").get<double>(), 1e-6);
     }
-    // The box is known to the cells it was looked for in: 1/64 of the diagonal.
+    // The box is accurate to the cells of the search: 1/64 of the diagonal.
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(grid.at("box").at("min").at(axis), 0.0, std::sqrt(3.0) / 64);
         EXPECT_NEAR(grid.at("box").at("max").at(axis), 1.0, std::sqrt(3.0) / 64);
@@ -116,9 +115,9 @@ TEST_F(InfoVerb, ListsTheChannelsOfAnImage) {
 }
 
 TEST_F(InfoVerb, FailsWhenItsWordsCannotBeWritten) {
-    // Nor can what it has to say about that.
+    // The error message cannot be written either.
     write("cube.off", cube_off);
-    largest_file_ = 1;
+    max_file_size_ = 1;
     const Outcome outcome = run({"info", "cube.off"});
     EXPECT_EQ(outcome.code, failure);
 }

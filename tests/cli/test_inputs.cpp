@@ -5,12 +5,12 @@ namespace {
 
 struct Damage {
     std::string name, bytes;
-    std::vector<std::string> said;
+    std::vector<std::string> message_parts;
 };
 
 std::string binary_stl_cut_short() {
     std::string bytes(84, '\0');
-    bytes[80] = 100; // triangles announced
+    bytes[80] = 100; // number of triangles in the header
     return bytes + std::string(50, 'x');
 }
 
@@ -41,10 +41,10 @@ using Inputs = ProgramTest;
 TEST_F(Inputs, DamagedOnesAreRefusedByNameAndPlace) {
     for (const Damage& damage : damages()) {
         write(damage.name, damage.bytes);
-        expect_refusal({"bake", damage.name, "-o", "b.ply"}, bad_input, damage.said);
-        expect_refusal({"voxelize", damage.name, "-o", "b.vdb"}, bad_input, damage.said);
-        expect_refusal({"info", damage.name}, bad_input, damage.said);
-        expect_refusal({"info", damage.name, "--json"}, bad_input, damage.said);
+        expect_refusal({"bake", damage.name, "-o", "b.ply"}, bad_input, damage.message_parts);
+        expect_refusal({"voxelize", damage.name, "-o", "b.vdb"}, bad_input, damage.message_parts);
+        expect_refusal({"info", damage.name}, bad_input, damage.message_parts);
+        expect_refusal({"info", damage.name, "--json"}, bad_input, damage.message_parts);
     }
     EXPECT_EQ(files().size(), damages().size());
 }
@@ -68,8 +68,7 @@ TEST_F(Inputs, AMeshWithoutAreaIsRefusedByName) {
 
 TEST_F(Inputs, ATooFineVoxelIsRefusedWithOneThatFits) {
     write("cube.off", cube_off);
-    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--voxel", "1e-9"}, bad_input,
-                   {"cube.off", "GB", "--voxel"});
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--voxel", "1e-9"}, bad_input, {"cube.off", "GB", "--voxel"});
 }
 
 TEST_F(Inputs, ALineBreakInANameStaysOneLine) {
@@ -78,7 +77,7 @@ TEST_F(Inputs, ALineBreakInANameStaysOneLine) {
 
 TEST_F(Inputs, DamagedImagesAndGridsAreRefused) {
     write("image.exr", std::string("\x76\x2f\x31\x01", 4) + "rest");
-    expect_refusal({"info", "image.exr"}, bad_input, {"image.exr", "no readable EXR or PNG image"});
+    expect_refusal({"info", "image.exr"}, bad_input, {"image.exr", "not a readable EXR or PNG image"});
     write("damaged.vdb", "no grid at all");
     expect_refusal({"info", "damaged.vdb"}, bad_input, {"damaged.vdb"});
 }
@@ -90,9 +89,9 @@ TEST_F(Inputs, NamesMayHoldSpacesAndAnyLetters) {
         const Outcome baked = run({"bake", input, "-o", output, "--method", "classic", "--json"});
         EXPECT_EQ(baked.code, done) << baked.err;
         EXPECT_EQ(baked.json().at("input"), input);
-        const Outcome told = run({"info", output, "--json"});
-        EXPECT_EQ(told.code, done) << told.err;
-        EXPECT_EQ(told.json().at("vertices"), 8);
+        const Outcome described = run({"info", output, "--json"});
+        EXPECT_EQ(described.code, done) << described.err;
+        EXPECT_EQ(described.json().at("vertices"), 8);
     }
 }
 

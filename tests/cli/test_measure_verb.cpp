@@ -15,22 +15,19 @@ using Json = nlohmann::ordered_json;
 
 class Measure : public ProgramTest {
   protected:
-    /// Two spheres, nearly touching.
+    /// Two spheres that almost touch.
     void SetUp() override {
         Mesh mesh = sphere_mesh(2);
         add_part(mesh, sphere_mesh(2), 1.0, {2.1, 0, 0});
-        write_mesh(mesh, folder_ / "work/spheres.ply", {});
+        write_mesh(mesh, folder_ / "work/spheres.ply");
     }
 
     Json results() const { return Json::parse(bytes_of("r.json")).at("measurements"); }
-    void keep(const Json& measurements) const {
-        write("r.json", Json{{"measurements", measurements}}.dump());
-    }
+    void keep(const Json& measurements) const { write("r.json", Json{{"measurements", measurements}}.dump()); }
 };
 
 TEST_F(Measure, MeasuresEveryMethodAndReportsIt) {
-    const Outcome outcome =
-        run({"measure", "spheres.ply", "--voxel", "2%", "--json", "r.json", "--report", "r.html"});
+    const Outcome outcome = run({"measure", "spheres.ply", "--voxel", "2%", "--json", "r.json", "--report", "r.html"});
     ASSERT_EQ(outcome.code, done) << outcome.err;
     const std::string page = bytes_of("r.html");
     std::set<std::string> measured;
@@ -57,31 +54,29 @@ TEST_F(Measure, MeasuresEveryMethodAndReportsIt) {
 }
 
 TEST_F(Measure, TakesListsOfLengthsAndMethods) {
-    const Outcome outcome = run({"measure", "spheres.ply", "--voxel", "2%,4%", "--radius", "10%,30%",
-                                 "--methods", "exact:1024,classic,classic:5", "--json", "r.json"});
+    const Outcome outcome = run({"measure", "spheres.ply", "--voxel", "2%,4%", "--radius", "10%,30%", "--methods",
+                                 "exact:1024,classic,classic:5", "--json", "r.json"});
     ASSERT_EQ(outcome.code, done) << outcome.err;
     std::multiset<std::string> asked;
     for (const Json& m : results()) {
-        asked.insert(m.at("method").get<std::string>() + " " + m.at("asked").at("radius").get<std::string>() +
-                     " " + m.at("asked").at("voxel").dump());
+        asked.insert(m.at("method").get<std::string>() + " " + m.at("asked").at("radius").get<std::string>() + " " +
+                     m.at("asked").at("voxel").dump());
         if (m.at("method") == "exact") {
             EXPECT_LT(m.at("rmse"), 0.01);
             EXPECT_EQ(m.at("rays"), 1024);
         }
     }
-    EXPECT_EQ(asked,
-              (std::multiset<std::string>{"exact 10% null", "exact 30% null", "classic 10% \"2%\"",
-                                          "classic 10% \"4%\"", "classic 30% \"2%\"", "classic 30% \"4%\""}));
+    EXPECT_EQ(asked, (std::multiset<std::string>{"exact 10% null", "exact 30% null", "classic 10% \"2%\"",
+                                                 "classic 10% \"4%\"", "classic 30% \"2%\"", "classic 30% \"4%\""}));
 }
 
 TEST_F(Measure, GoesOnWhereItWasCutOff) {
-    const std::vector<std::string> command{"measure", "spheres.ply", "--voxel",
-                                           "4%",      "--methods",   "classic,exact:4,decay,jittered",
-                                           "--json",  "r.json"};
+    const std::vector<std::string> command{
+        "measure", "spheres.ply", "--voxel", "4%", "--methods", "classic,exact:4,decay,jittered", "--json", "r.json"};
     ASSERT_EQ(run(command).code, done);
     Json first = results();
     ASSERT_EQ(first.size(), 4u);
-    // Marks tell what was kept from what was made again.
+    // Marks distinguish cached results from new ones.
     first.erase(first.begin() + 2);
     for (Json& m : first)
         m["rmse"] = 0.125;
@@ -93,7 +88,7 @@ TEST_F(Measure, GoesOnWhereItWasCutOff) {
         EXPECT_EQ(second[i], first[i]);
     EXPECT_NE(second[3].at("rmse"), 0.125);
 
-    // Another radius, or another file of that name, is another question.
+    // Another radius, or another file of the same name, must not reuse cached results.
     std::vector<std::string> wider = command;
     wider.insert(wider.end(), {"--radius", "20%"});
     ASSERT_EQ(run(wider).code, done);
@@ -105,8 +100,8 @@ TEST_F(Measure, GoesOnWhereItWasCutOff) {
 
 TEST_F(Measure, LosesNothingToAMeshThatCannotBeMeasured) {
     write("broken.ply", "ply\nno\n");
-    const Outcome outcome = run({"measure", "broken.ply", "none.ply", "spheres.ply", "--voxel", "4%",
-                                 "--methods", "classic", "--json", "r.json", "--report", "r.html"});
+    const Outcome outcome = run({"measure", "broken.ply", "none.ply", "spheres.ply", "--voxel", "4%", "--methods",
+                                 "classic", "--json", "r.json", "--report", "r.html"});
     EXPECT_EQ(outcome.code, bad_input) << outcome.err;
     EXPECT_NE(outcome.err.find("broken.ply: "), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("none.ply: "), std::string::npos) << outcome.err;
@@ -131,8 +126,7 @@ TEST_F(Measure, RefusesWhatCannotBeMeantBeforeAnyWork) {
     expect_refusal({"measure", "none.ply", "--methods", ","}, usage, {"no method ''"});
     expect_refusal({"measure", "none.ply", "--report", "no/such/r.html"}, failure, {"no/such/r.html"});
     write("mine.json", "{\"my\": 1}");
-    expect_refusal({"measure", "spheres.ply", "--json", "mine.json"}, bad_input,
-                   {"mine.json", "another file"});
+    expect_refusal({"measure", "spheres.ply", "--json", "mine.json"}, bad_input, {"mine.json", "another file"});
     EXPECT_EQ(bytes_of("mine.json"), "{\"my\": 1}");
 }
 

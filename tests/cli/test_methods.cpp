@@ -1,4 +1,4 @@
-/// The choice of estimators, of their parameters and of what they give, as a user meets them.
+/// How users select estimators, their parameters and their channels.
 #include "program.h"
 
 #include "alcove/mesh/formats/ply/ply_document.h"
@@ -53,12 +53,11 @@ TEST_F(Methods, AreListedWithAllTheirParameters) {
 TEST_F(Methods, AllBakeAndTakeTheirParameters) {
     write("cube.off", cube_off);
     for (const std::string& name : names) {
-        const Outcome outcome =
-            run({"bake", "cube.off", "-o", "a.ply", "--method", name, "--voxel", "5%", "--json"});
+        const Outcome outcome = run({"bake", "cube.off", "-o", "a.ply", "--method", name, "--voxel", "5%", "--json"});
         ASSERT_EQ(outcome.code, done) << outcome.err;
         EXPECT_EQ(outcome.json().at("method"), name);
     }
-    // What --set says holds: an open vertex is as bright as the factor.
+    // --set takes effect: an open vertex is as bright as the factor.
     ASSERT_EQ(run({"bake", "cube.off", "-o", "a.obj", "--method", "exponential", "--set", "factor=0", "--set",
                    "samples=7", "--voxel", "5%", "--color-encoding", "raw"})
                   .code,
@@ -83,12 +82,11 @@ TEST_F(Methods, RefuseWhatTheyDoNotTake) {
             takes.insert(parameter.at("name").get<std::string>());
         for (const std::string option : {"samples", "rays", "seed"})
             if (!takes.contains(option))
-                refuse(name, "--" + option, "5",
-                       {"--" + option, name, fmt::format("no parameter '{}'", option)});
-        refuse(name, "--set", "nothing=1", {"--set nothing=1", name, "no parameter 'nothing'"});
+                refuse(name, "--" + option, "5", {name, fmt::format("no parameter '{}'", option)});
+        refuse(name, "--set", "nothing=1", {name, "no parameter 'nothing'"});
         for (const nlohmann::json& parameter : method.at("parameters")) {
             const std::string key = parameter.at("name");
-            refuse(name, "--set", key + "=-0.5", {"--set", key, name});
+            refuse(name, "--set", key + "=-0.5", {key, name});
         }
     }
     refuse("classic", "--set", "samples", {"name=value"});
@@ -116,7 +114,7 @@ TEST_F(Methods, AttributesAreKnownNamesAndAnObjHoldsAoAlone) {
     EXPECT_TRUE(files().empty());
 }
 
-/// The values of a property of the vertices; none where there is no such one.
+/// The values of a vertex property; empty if there is no such property.
 std::vector<double> property(const Mesh& mesh, std::string_view name) {
     const auto& document = dynamic_cast<const PlyDocument&>(*mesh.source);
     const PlyElement& vertices = *document.find("vertex");
@@ -126,8 +124,7 @@ std::vector<double> property(const Mesh& mesh, std::string_view name) {
             EXPECT_EQ(p.type, PlyType::float32) << name;
             std::vector<double> values;
             for (std::size_t v = 0; v < vertices.count; ++v)
-                values.push_back(
-                    number_at(vertices.rows.data() + v * vertices.smallest_row() + offset, p.type));
+                values.push_back(number_at(vertices.rows.data() + v * vertices.smallest_row() + offset, p.type));
             return values;
         }
         offset += size_of(p.type);
@@ -135,7 +132,7 @@ std::vector<double> property(const Mesh& mesh, std::string_view name) {
     return {};
 }
 
-/// A box of 1 x 2 x 0.2, all times `scale`.
+/// A box of 1 x 2 x 0.2, times `scale`.
 std::string box_off(double scale) {
     std::string text = "OFF\n8 6 0\n";
     for (const auto& [x, y, z] :
@@ -148,9 +145,8 @@ TEST_F(Methods, ChannelsBecomePropertiesInTheUnitsOfTheScene) {
     std::vector<std::vector<double>> thickness;
     for (const double scale : {1.0, 1000.0}) {
         write("box.off", box_off(scale));
-        const Outcome outcome =
-            run({"bake", "box.off", "-o", "a.ply", "--method", "classic", "--radius", "20%", "--attributes",
-                 "ao,convexity,bent_normal,thickness", "--voxel", "1%", "--json"});
+        const Outcome outcome = run({"bake", "box.off", "-o", "a.ply", "--method", "classic", "--radius", "20%",
+                                     "--attributes", "ao,convexity,bent_normal,thickness", "--voxel", "1%", "--json"});
         ASSERT_EQ(outcome.code, done) << outcome.err;
         EXPECT_EQ(outcome.json().at("attributes"), "ao, convexity, bent_normal, thickness");
         const Mesh mesh = read_mesh(folder_ / "work/a.ply");

@@ -10,7 +10,7 @@ namespace {
 
 class RenderVerb : public ProgramTest {
   protected:
-    /// Draws small and quickly.
+    /// Renders a small image quickly.
     Outcome draw(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), "render");
         for (const char* word : {"--size", "64x48", "--pixel-samples", "1", "--json"})
@@ -59,8 +59,8 @@ TEST_F(RenderVerb, DrawsAScene) {
 TEST_F(RenderVerb, TheCommandLineGoesBeforeTheScene) {
     write("cube.off", cube_off);
     write("scene.toml", scene_toml);
-    const Outcome drawn = draw({"scene.toml", "-o", "a.png", "--method", "classic", "--radius", "0.25",
-                                "--eye", "0,2,5", "--fov", "30", "--no-ground"});
+    const Outcome drawn = draw({"scene.toml", "-o", "a.png", "--method", "classic", "--radius", "0.25", "--eye",
+                                "0,2,5", "--fov", "30", "--no-ground"});
     ASSERT_EQ(drawn.code, done) << drawn.err;
     const auto result = drawn.json();
     EXPECT_EQ(result["width"], 64);
@@ -73,8 +73,7 @@ TEST_F(RenderVerb, TheCommandLineGoesBeforeTheScene) {
 
 TEST_F(RenderVerb, ABareMeshStandsOnAGroundUnlessToldOtherwise) {
     write("cube.off", cube_off);
-    const Outcome with = draw({"cube.off", "-o", "a.png"}),
-                  without = draw({"cube.off", "-o", "b.png", "--no-ground"});
+    const Outcome with = draw({"cube.off", "-o", "a.png"}), without = draw({"cube.off", "-o", "b.png", "--no-ground"});
     ASSERT_EQ(with.code, done) << with.err;
     ASSERT_EQ(without.code, done) << without.err;
     EXPECT_GT(with.json()["covered_pixels"], without.json()["covered_pixels"].get<int>() + 200);
@@ -95,10 +94,8 @@ TEST_F(RenderVerb, WritesThePassesThatAreAskedFor) {
     EXPECT_EQ(channels("b.exr"), "A Object.V Z ");
     ASSERT_EQ(draw({"cube.off", "-o", "c.exr", "--pass", "all", "--precision", "float"}).code, done);
     EXPECT_NE(channels("c.exr").find("Convexity.R"), std::string::npos);
-    expect_refusal({"render", "cube.off", "-o", "d.exr", "--pass", "depht"}, usage,
-                   {"depht", "depth", "shadow"});
-    expect_refusal({"render", "cube.off", "-o", "d.png", "--pass", "ao", "--pass", "depth"}, usage,
-                   {"one pass"});
+    expect_refusal({"render", "cube.off", "-o", "d.exr", "--pass", "depht"}, usage, {"depht", "depth", "shadow"});
+    expect_refusal({"render", "cube.off", "-o", "d.png", "--pass", "ao", "--pass", "depth"}, usage, {"one pass"});
     expect_refusal({"render", "cube.off", "-o", "d.exr", "--precision", "double"}, usage, {"half or float"});
 }
 
@@ -108,8 +105,7 @@ TEST_F(RenderVerb, ATurntableGoesOnWhereItWasCutOff) {
     const Outcome first = draw(spin);
     ASSERT_EQ(first.code, done) << first.err;
     EXPECT_EQ(first.json()["skipped"], 0);
-    const std::vector<std::string> all{"cube.off", "spin_0001.png", "spin_0002.png", "spin_0003.png",
-                                       "spin_0004.png"};
+    const std::vector<std::string> all{"cube.off", "spin_0001.png", "spin_0002.png", "spin_0003.png", "spin_0004.png"};
     EXPECT_EQ(files(), all);
     EXPECT_NE(bytes_of("spin_0001.png"), bytes_of("spin_0002.png"));
     const std::string second = bytes_of("spin_0002.png");
@@ -130,12 +126,10 @@ TEST_F(RenderVerb, DrawsByTheMethodsOfPicturesToo) {
         ASSERT_EQ(drawn.code, done) << drawn.err;
         EXPECT_EQ(drawn.json()["method"], method);
     }
-    EXPECT_EQ(
-        draw({"cube.off", "-o", "a.png", "--method", "screen_space", "--samples", "8", "--set", "blur=1"})
-            .code,
-        done);
-    expect_refusal({"render", "cube.off", "-o", "a.png", "--method", "screen_space", "--set", "blur=3"},
-                   usage, {"blur", "0 to 2"});
+    EXPECT_EQ(draw({"cube.off", "-o", "a.png", "--method", "screen_space", "--samples", "8", "--set", "blur=1"}).code,
+              done);
+    expect_refusal({"render", "cube.off", "-o", "a.png", "--method", "screen_space", "--set", "blur=3"}, usage,
+                   {"blur", "0 to 2"});
     expect_refusal({"render", "cube.off", "-o", "a.png", "--method", "screenspace"}, usage,
                    {"screenspace", "screen_space"});
     expect_refusal({"bake", "cube.off", "-o", "a.ply", "--method", "screen_space"}, usage, {"screen_space"});
@@ -146,8 +140,7 @@ TEST_F(RenderVerb, DrawsByRaysOnTheTriangles) {
     for (const std::string method : {"exact", "guided"})
         EXPECT_EQ(draw({"cube.off", "-o", "a.png", "--method", method, "--rays", "2"}).code, done) << method;
     EXPECT_EQ(draw({"cube.off", "-o", "b.png", "--normals", "field"}).code, done);
-    expect_refusal({"render", "cube.off", "-o", "b.png", "--normals", "smooth"}, usage,
-                   {"--normals", "smooth"});
+    expect_refusal({"render", "cube.off", "-o", "b.png", "--normals", "smooth"}, usage, {"--normals", "smooth"});
     write("painted.toml", "[[object]]\nshape = \"mesh\"\nfile = \"cube.off\"\npainted = true\n");
     expect_refusal({"render", "painted.toml", "-o", "b.png"}, bad_input, {"painted", "no vertex colours"});
 }
@@ -165,26 +158,23 @@ TEST_F(RenderVerb, WrongScenesAreNamedWithTheMend) {
     write("lost.toml", "[[object]]\nshape = \"mesh\"\nfile = \"lost.ply\"\n");
     expect_refusal({"render", "lost.toml", "-o", "a.png"}, bad_input, {"lost.ply", "cannot be opened"});
     write("open.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    write("cut.toml",
-          "[[object]]\nshape = \"difference\"\npart = [{ shape = \"box\" }, { shape = \"mesh\", file = "
-          "\"open.off\" }]\n");
-    expect_refusal({"render", "cut.toml", "-o", "a.png"}, bad_input, {"part 2 (mesh)", "is open", "signed"});
+    write("cut.toml", "[[object]]\nshape = \"difference\"\npart = [{ shape = \"box\" }, { shape = \"mesh\", file = "
+                      "\"open.off\" }]\n");
+    expect_refusal({"render", "cut.toml", "-o", "a.png"}, bad_input, {"part 2 (mesh)", "is open", "solid"});
     write("cube.toml", "[[object]]\nshape = \"box\"\n");
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--voxel", "1%"}, usage, {"--voxel", "cube.toml"});
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--size", "4x"}, usage, {"--size", "1280x720"});
-    // What a method of the picture keeps counts; no file is read before.
-    std::vector<std::string> large{"render", "none.off",   "-o",       "a.png",
-                                   "--size", "14000x8000", "--method", "classic"};
+    // The memory of the image method counts; the check comes before any file is read.
+    std::vector<std::string> large{"render", "none.off", "-o", "a.png", "--size", "14000x8000", "--method", "classic"};
     expect_refusal(large, bad_input, {"none.off"});
     large.back() = "screen_space";
     expect_refusal(large, usage, {"14000x8000", "6.27 GB", "smaller --size"});
-    expect_refusal({"render", "cube.toml", "-o", "a.png", "--pixel-samples", "0"}, usage,
-                   {"--pixel-samples"});
+    expect_refusal({"render", "cube.toml", "-o", "a.png", "--pixel-samples", "0"}, usage, {"--pixel-samples"});
     const std::vector<std::string> left = files();
     EXPECT_EQ(std::count(left.begin(), left.end(), "a.png"), 0);
 }
 
-/// A plate that stands turned on the ground, as high as it is wide.
+/// An upright plate on the ground, rotated, as high as it is wide.
 std::string plate_off(double thickness) {
     std::string text = "OFF\n8 6 0\n";
     for (int i = 0; i < 8; ++i) {
@@ -208,12 +198,12 @@ TEST_F(RenderVerb, WarnsOfWallsWithHolesAndNamesTheVoxelThatMendsThem) {
     const std::string use = "and have holes: use a voxel of ";
     const std::size_t at = holed.err.find(use);
     ASSERT_NE(at, std::string::npos) << holed.err;
-    const std::string told = holed.err.substr(at + use.size(), holed.err.find('%', at) + 1 - at - use.size());
-    const Outcome mended = draw_plate(0.4 * voxel, {"--voxel", told});
-    EXPECT_EQ(mended.err, "");
-    EXPECT_GT(mended.json().at("covered_pixels"), 0.95 * whole.json().at("covered_pixels").get<double>());
+    const std::string suggested = holed.err.substr(at + use.size(), holed.err.find('%', at) + 1 - at - use.size());
+    const Outcome fixed = draw_plate(0.4 * voxel, {"--voxel", suggested});
+    EXPECT_EQ(fixed.err, "");
+    EXPECT_GT(fixed.json().at("covered_pixels"), 0.95 * whole.json().at("covered_pixels").get<double>());
     EXPECT_EQ(draw({real_mesh("reference_tetrahedron.off"), "-o", "a.png", "--method", "none"}).err, "")
-        << "edges are no walls";
+        << "edges are not walls";
 }
 
 }

@@ -1,4 +1,4 @@
-/// Meshes with something wrong: what is sound in them is baked as without it.
+/// Meshes with defects. The sound parts must be baked as if the defects were not there.
 #include "extreme.h"
 #include "shapes.h"
 
@@ -10,7 +10,7 @@
 namespace alcove::extremes {
 namespace {
 
-/// The faces of the mesh, changed one by one.
+/// Calls `change(index, face)` for each face, and keeps the face if it returns true.
 template <class Change>
 Mesh with_faces(const Mesh& mesh, const Change& change) {
     Mesh changed;
@@ -35,7 +35,7 @@ Mesh without_face(const Mesh& mesh, std::size_t left_out) {
     return with_faces(mesh, [=](std::size_t f, const std::vector<std::uint32_t>&) { return f != left_out; });
 }
 
-/// With triangles that have no area, on its own vertices.
+/// Adds triangles without area, on existing vertices.
 Mesh with_degenerate(const Mesh& mesh) {
     Mesh changed = mesh;
     for (std::uint32_t v = 0; v + 1 < mesh.vertex_count(); v += 7) {
@@ -45,26 +45,26 @@ Mesh with_degenerate(const Mesh& mesh) {
     return changed;
 }
 
-/// With a triangle on each tenth face, of which one corner is new, at that place.
-Mesh with_corner_at(const Mesh& mesh, const Vec3d& place) {
+/// Adds a triangle on every tenth face, with one new corner at that position.
+Mesh with_corner_at(const Mesh& mesh, const Vec3d& position) {
     Mesh changed = mesh;
-    changed.positions.push_back(place);
+    changed.positions.push_back(position);
     const auto added = static_cast<std::uint32_t>(mesh.vertex_count());
     for (std::size_t f = 0; f < mesh.face_count(); f += 10)
         changed.add_face(std::array{mesh.face(f)[0], mesh.face(f)[1], added});
     return changed;
 }
 
-Mesh together(const Mesh& mesh, double scale, const Vec3d& move) {
+Mesh combined(const Mesh& mesh, double scale, const Vec3d& move) {
     Mesh both = mesh;
     test::add_part(both, mesh, scale, move);
     return both;
 }
 
-/// All faces again, on vertices of their own, from behind.
+/// Adds a flipped copy of all faces, on vertices of its own.
 Mesh with_backs(const Mesh& mesh) {
     const std::size_t once = mesh.face_count();
-    return flipped(together(mesh, 1.0, Vec3d(0.0)), [=](std::size_t f) { return f >= once; });
+    return flipped(combined(mesh, 1.0, Vec3d(0.0)), [=](std::size_t f) { return f >= once; });
 }
 
 Mesh with_faces_twice(const Mesh& mesh) {
@@ -74,7 +74,8 @@ Mesh with_faces_twice(const Mesh& mesh) {
     return twice;
 }
 
-/// Beside exact rays, but of what is inside a solid: it is buried, where rays from behind its faces see the open.
+/// Compares with exact rays at vertices outside of the solid only: those inside are buried, but rays from behind the
+/// faces see the open.
 Result outside_against_exact(const Mesh& mesh, const Methods& methods, double bound) {
     const Baked baked(mesh);
     const std::vector<float> truth = baked.truth();
@@ -82,13 +83,13 @@ Result outside_against_exact(const Mesh& mesh, const Methods& methods, double bo
     Result result;
     for (const std::string_view method : methods) {
         const std::vector<float> ao = baked.by(method);
-        std::vector<float> of_outside, truth_of_outside;
+        std::vector<float> outside, outside_truth;
         for (std::size_t i = 0; i < ao.size(); ++i)
             if (!buried[i]) {
-                of_outside.push_back(ao[i]);
-                truth_of_outside.push_back(truth[i]);
+                outside.push_back(ao[i]);
+                outside_truth.push_back(truth[i]);
             }
-        result.figures.push_back({std::string(method), compare(of_outside, truth_of_outside).rmse, bound});
+        result.figures.push_back({std::string(method), compare(outside, outside_truth).rmse, bound});
     }
     const auto left_out = std::count(buried.begin(), buried.end(), true);
     result.note = std::to_string(left_out) + " vertices are inside";
@@ -103,9 +104,9 @@ std::vector<Extreme> damages() {
         rows.push_back({"damage", std::move(name), std::move(must), std::move(run)});
     };
     constexpr double nothing = 0.0, bound = 0.04, infinity = std::numeric_limits<double>::infinity();
-    const std::string unchanged = "the same ao at all vertices, to the bit";
-    const std::string close = "RMSE of 0.04 against exact rays on the same triangles";
-    const std::string refusal = "a refusal in one line";
+    const std::string unchanged = "bit-identical ao at all vertices";
+    const std::string close = "RMSE at most 0.04 against exact rays on the same triangles";
+    const std::string refusal = "a one-line error";
     const Methods rays = {"traced", "guided", "exact"};
     add("faces without area", unchanged,
         [=] { return against(bumpy(), with_degenerate(bumpy()), all_kinds, nothing); });
@@ -119,33 +120,29 @@ std::vector<Extreme> damages() {
         add(std::string("faces with a corner at ") + name, unchanged, [=, value = value] {
             return against(bumpy(), with_corner_at(bumpy(), Vec3d(0.0, value, 0.0)), all_kinds, nothing);
         });
-    add("faces with a corner at 1e38", "a refusal in one line: in a box that large nothing has an area", [] {
-        return refused<InputError>([] { const Baked baked(with_corner_at(bumpy(), Vec3d(1e38, 0, 0))); });
-    });
-    add("all faces twice", close,
-        [=] { return against_exact(Baked(with_faces_twice(bumpy())), rays, bound); });
+    add("faces with a corner at 1e38", "a one-line error: in a box that large, no face has an area",
+        [] { return refused<InputError>([] { const Baked baked(with_corner_at(bumpy(), Vec3d(1e38, 0, 0))); }); });
+    add("all faces twice", close, [=] { return against_exact(Baked(with_faces_twice(bumpy())), rays, bound); });
     add("all faces twice, once from behind", close,
         [=] { return against_exact(Baked(with_backs(bumpy())), rays, bound); });
-    add("all faces inside out", close, [=] {
-        return against_exact(Baked(flipped(bumpy(), [](std::size_t) { return true; })), rays, bound);
-    });
+    add("all faces inside out", close,
+        [=] { return against_exact(Baked(flipped(bumpy(), [](std::size_t) { return true; })), rays, bound); });
     add("a third of the faces inside out", "a warning that counts the edges between them", [=] {
         const Baked baked(flipped(bumpy(), [](std::size_t f) { return f % 3 == 0; }));
         const std::vector<std::string> warnings = baked.warnings();
-        const auto told = std::find_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
-            return warning.find(" edges the neighbouring faces turn opposite ways") != std::string::npos;
+        const auto found = std::find_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
+            return warning.find(" edges the neighbouring faces have opposite orientations") != std::string::npos;
         });
-        return Result{{{"warnings missing", told == warnings.end() ? 1.0 : 0.0, 0.0}},
-                      told == warnings.end() ? "" : *told};
+        return Result{{{"warnings missing", found == warnings.end() ? 1.0 : 0.0, 0.0}},
+                      found == warnings.end() ? "" : *found};
     });
-    add("one face is missing", close,
-        [=] { return against_exact(Baked(without_face(bumpy(), 1234)), rays, bound); });
+    add("one face is missing", close, [=] { return against_exact(Baked(without_face(bumpy(), 1234)), rays, bound); });
     add("a shell within a shell", close,
-        [=] { return against_exact(Baked(together(bumpy(), 0.8, Vec3d(0.0))), rays, bound); });
+        [=] { return against_exact(Baked(combined(bumpy(), 0.8, Vec3d(0.0))), rays, bound); });
     add("two bodies through each other",
-        "RMSE of 0.05 against exact rays where they are not inside: the seam is sharper than any voxel",
-        [=] { return outside_against_exact(together(bumpy(), 0.9, Vec3d(0.7, 0.2, 0.1)), rays, 0.05); });
-    add("two boxes with a face in common", close + ", where they are not inside", [=] {
+        "RMSE at most 0.05 against exact rays, except at vertices inside: the seam is sharper than any voxel",
+        [=] { return outside_against_exact(combined(bumpy(), 0.9, Vec3d(0.7, 0.2, 0.1)), rays, 0.05); });
+    add("two boxes with a face in common", close + ", except at vertices inside", [=] {
         Mesh boxes = test::box_mesh({0.5, 0.4, 0.3}, 16);
         test::add_part(boxes, test::box_mesh({0.5, 0.4, 0.3}, 16), 0.8, {0.9, 0.0, 0.0});
         return outside_against_exact(boxes, rays, bound);

@@ -1,4 +1,4 @@
-/// The extremes that results must stand, as one table: what is done to a mesh, what must come of it, and what does.
+/// A table of extreme cases: what is done to a mesh, what the result must be, and what it is.
 #pragma once
 
 #include "alcove/grid/voxelize.h"
@@ -13,23 +13,23 @@
 
 namespace alcove::extremes {
 
-/// A number, and what it may be at most.
+/// A number and its upper bound.
 struct Figure {
-    std::string of; ///< the method, as a rule
+    std::string of; ///< usually the method
     double value = 0.0, bound = 0.0;
 
-    bool holds() const { return value <= bound; } ///< NaN never does
+    bool holds() const { return value <= bound; } ///< false for NaN
 };
 
 struct Result {
     std::vector<Figure> figures{};
-    std::string note{}; ///< a refusal or a warning in its own words, or what was lost beforehand
+    std::string note{}; ///< the text of an error or warnings, or what was lost beforehand
 };
 
 /// One row of the table.
 struct Extreme {
     std::string group, name; ///< "scale", "1e-30"
-    std::string must;        ///< an invariance, an analytic value, a bound or a refusal
+    std::string must;        ///< an invariance, an analytic value, a bound or an error
     std::function<Result()> run;
 };
 
@@ -43,30 +43,30 @@ std::vector<Extreme> damages();
 std::vector<Extreme> thin_features();
 std::vector<Extreme> settings();
 
-/// How a mesh is baked; lengths in unit space.
+/// How a mesh is baked. Lengths are in unit space.
 struct Baking {
     float radius = 0.1f, voxel = 0.0f;
     SignChoice sign = SignChoice::automatic;
-    int rays = 0; ///< 0: as many as is standard
+    int rays = 0; ///< 0: the default of the method
 };
 
 /// Names of methods.
 using Methods = std::vector<std::string_view>;
 inline const Methods all_kinds = {"traced", "guided", "exact", "calibrated", "classic"};
 
-/// A mesh with its grids, baked by one method after the other.
+/// A mesh with its grids, to be baked by several methods.
 class Baked {
   public:
     explicit Baked(const Mesh& mesh, const Baking& baking = {});
 
-    /// One a vertex. The first value that is not in [0, 1] is told by an exception.
+    /// One value per vertex. \throw std::runtime_error if a value is not in [0, 1].
     std::vector<float> by(std::string_view method) const;
-    /// Whether a vertex is inside of the solid: so is a place within a voxel above it.
+    /// Whether each vertex is inside the solid: whether a point within a voxel above it is.
     std::vector<bool> buried() const;
-    /// By 1,024 exact rays.
+    /// The ao by 1,024 exact rays.
     std::vector<float> truth() const;
     std::vector<std::string> warnings() const;
-    /// That walls too thin for the grid would take, unit space; 0 where there are none.
+    /// The voxel that resolves the walls too thin for the grid, in unit space; 0 if there are none.
     float resolving_voxel() const { return walls_.noticeable() ? walls_.voxel : 0.0f; }
     const MeasuredMesh& mesh() const { return mesh_; }
 
@@ -78,17 +78,18 @@ class Baked {
     ThinWalls walls_;
 };
 
-/// The RMSE of each method against exact rays, with the warnings as its note.
+/// The RMSE of each method against exact rays, with the warnings as the note.
 Result against_exact(const Baked& baked, const Methods& methods, double bound);
 
-/// The largest difference of each method from one value, with the warnings as its note.
+/// The largest difference of each method from one value, with the warnings as the note.
 Result against_value(const Baked& baked, float value, const Methods& methods, double bound);
 
-/// The largest difference of each method, or the RMSE, at the vertices of `reference`, which are the first of the mesh.
+/// The largest difference of each method, or the RMSE, at the vertices of `reference`, which are the first ones of
+/// `mesh`.
 Result against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound);
 Result rmse_against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound);
 
-/// A figure of 0 where `attempt` throws an E, with its message as the note; else infinity.
+/// A figure of 0 if `attempt` throws an E, with its message as the note; otherwise infinity.
 template <class E>
 Result refused(const std::function<void()>& attempt) {
     try {
@@ -102,8 +103,8 @@ Result refused(const std::function<void()>& attempt) {
 /// A closed surface with bumps and hollows, 4,098 vertices around the origin, about 1 from it.
 Mesh bumpy();
 
-/// A block with thin walls on it: `fins` of that thickness, with gaps between, on a foot; all walls 0.1 high, D about 1.
-/// Lengths in scene units. Off the axes of the grid where `turned`.
+/// A base with `fins` thin walls of that thickness on it, 0.1 high, with gaps between them. D is about 1; lengths are
+/// in scene units. `turned` rotates it off the axes of the grid.
 Mesh comb(int fins, double thickness, double gap, bool turned);
 
 }

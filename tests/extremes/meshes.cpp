@@ -11,15 +11,15 @@ namespace {
 
 using Corner = glm::dvec2; // x to the right, z up
 
-/// The outline swept along y, its sides cut into quads of that size at most; the outline runs against the clock seen
-/// from −y.
+/// Sweeps the outline along y, and cuts its sides into quads of at most that size. The outline is counterclockwise,
+/// seen from −y.
 Mesh prism(const std::vector<Corner>& outline, double length, int along, double size) {
     std::vector<Corner> points;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const Corner a = outline[i], b = outline[(i + 1) % outline.size()];
-        const int pieces = std::max(1, static_cast<int>(std::ceil(glm::length(b - a) / size)));
-        for (int k = 0; k < pieces; ++k)
-            points.push_back(a + (b - a) * (static_cast<double>(k) / pieces));
+        const int segments = std::max(1, static_cast<int>(std::ceil(glm::length(b - a) / size)));
+        for (int k = 0; k < segments; ++k)
+            points.push_back(a + (b - a) * (static_cast<double>(k) / segments));
     }
     const auto count = static_cast<std::uint32_t>(points.size());
     Mesh mesh;

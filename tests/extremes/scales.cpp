@@ -1,4 +1,4 @@
-/// How large the scene is and where it lies: neither may matter.
+/// Scenes of extreme scale and position. Neither may affect the result.
 #include "extreme.h"
 
 #include "alcove/mesh/read.h"
@@ -13,21 +13,20 @@
 namespace alcove::extremes {
 namespace {
 
-/// What comes back of a mesh from a file of that ending; all digits are written.
-Mesh through_file(const Mesh& mesh, const std::string& ending) {
+/// Writes a mesh to a file with that extension, with all digits, and reads it back.
+Mesh through_file(const Mesh& mesh, const std::string& extension) {
     const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / fmt::format("alcove-extreme-{}{}", ::getpid(), ending);
+        std::filesystem::temp_directory_path() / fmt::format("alcove-extreme-{}{}", ::getpid(), extension);
     {
         std::ofstream text(file);
-        if (ending == ".off")
+        if (extension == ".off")
             text << fmt::format("OFF\n{} {} 0\n", mesh.vertex_count(), mesh.face_count());
-        if (ending == ".ply")
-            text << fmt::format(
-                "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
-                "property double z\nelement face {}\nproperty list uchar int vertex_indices\n"
-                "end_header\n",
-                mesh.vertex_count(), mesh.face_count());
-        const bool obj = ending == ".obj";
+        if (extension == ".ply")
+            text << fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
+                                "property double z\nelement face {}\nproperty list uchar int vertex_indices\n"
+                                "end_header\n",
+                                mesh.vertex_count(), mesh.face_count());
+        const bool obj = extension == ".obj";
         for (const Vec3d& p : mesh.positions)
             text << fmt::format("{}{:.17g} {:.17g} {:.17g}\n", obj ? "v " : "", p.x, p.y, p.z);
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -48,9 +47,9 @@ Mesh scaled(Mesh mesh, double factor) {
     return mesh;
 }
 
-Mesh moved(Mesh mesh, const Vec3d& way) {
+Mesh moved(Mesh mesh, const Vec3d& offset) {
     for (Vec3d& p : mesh.positions)
-        p += way;
+        p += offset;
     return mesh;
 }
 
@@ -60,14 +59,13 @@ constexpr double same = 1e-4;
 
 std::vector<Extreme> scales() {
     std::vector<Extreme> rows;
-    const std::string_view endings[] = {".ply", ".obj", ".off"};
+    const std::string_view extensions[] = {".ply", ".obj", ".off"};
     int row = 0;
     for (const double factor : {1e-30, 1e-20, 1e-10, 1e-5, 1e-3, 3.0, 1e3, 1e5, 1e10, 1e20, 1e30}) {
-        const std::string ending(endings[row++ % 3]);
+        const std::string extension(extensions[row++ % 3]);
         rows.push_back(
-            {"scale", fmt::format("{:g}, {}", factor, ending), "ao of the unit case within 1e-4", [=] {
-                 return against(bumpy(), through_file(scaled(bumpy(), factor), ending), all_kinds, same);
-             }});
+            {"scale", fmt::format("{:g}, {}", factor, extension), "ao within 1e-4 of that at unit scale",
+             [=] { return against(bumpy(), through_file(scaled(bumpy(), factor), extension), all_kinds, same); }});
     }
     return rows;
 }
@@ -75,15 +73,15 @@ std::vector<Extreme> scales() {
 std::vector<Extreme> offsets() {
     std::vector<Extreme> rows;
     for (const double extents : {1.0, 1e3, 1e6, 1e9}) {
-        const Vec3d way = 2.0 * extents * Vec3d(1.0, -0.7, 0.4);
+        const Vec3d offset = 2.0 * extents * Vec3d(1.0, -0.7, 0.4);
         const bool lossy = extents > 1e7;
         rows.push_back({"offset", fmt::format("{:g} extents", extents),
-                        lossy ? "no further, in RMSE, than the file's rounding alone moves it"
-                              : "ao within 1e-4 of that of the vertices as the file has them, moved back",
+                        lossy ? "RMSE no larger than that of the file's rounding alone"
+                              : "ao within 1e-4 of that of the vertices in the file, moved back",
                         [=] {
                             const Mesh mesh = bumpy();
-                            const Mesh away = through_file(moved(mesh, way), ".ply");
-                            const Mesh back = moved(away, -way); // exact: nothing is lost on the way back
+                            const Mesh away = through_file(moved(mesh, offset), ".ply");
+                            const Mesh back = moved(away, -offset); // exact: nothing is lost on the way back
                             double lost = 0.0;
                             for (std::size_t i = 0; i < back.vertex_count(); ++i)
                                 lost = std::max(lost, glm::length(back.positions[i] - mesh.positions[i]));
@@ -97,8 +95,8 @@ std::vector<Extreme> offsets() {
                                     result.figures[i].bound = std::max(same, rounded.figures[i].value);
                             }
                             result.note =
-                                fmt::format("rounding in the file moves vertices by up to {:.1g} and ao, "
-                                            "RMSE, by {:.1g}",
+                                fmt::format("rounding in the file moves vertices by up to {:.1g} and changes ao "
+                                            "by an RMSE of up to {:.1g}",
                                             lost, moved_ao);
                             return result;
                         }});

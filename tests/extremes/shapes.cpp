@@ -1,4 +1,4 @@
-/// Flat, long and sharp: boxes, needles and slivers, which have closed answers or those of exact rays.
+/// Flat, long and sharp shapes: boxes, needles and slivers. Their ao is known in closed form or from exact rays.
 #include "shapes.h"
 #include "extreme.h"
 
@@ -9,7 +9,7 @@
 namespace alcove::extremes {
 namespace {
 
-/// A cylinder of height 1 whose sides are needles: as thin as `sides` make them, and as long as it is high.
+/// A cylinder of height 1 whose sides are needles, as long as it is high; more `sides` make them thinner.
 Mesh needle_cylinder(std::uint32_t sides) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < sides; ++i) {
@@ -30,7 +30,7 @@ Mesh needle_cylinder(std::uint32_t sides) {
     return mesh;
 }
 
-/// The surface with each triangle cut into three by a point as near to one side of it as `share` of its height.
+/// Cuts each triangle into three, at a point whose distance from one side is `share` of the height.
 Mesh with_slivers(const Mesh& mesh, double share) {
     Mesh cut;
     cut.positions = mesh.positions;
@@ -52,22 +52,24 @@ std::vector<Extreme> shapes() {
     const auto add = [&](std::string name, std::string must, std::function<Result()> run) {
         rows.push_back({"shape", std::move(name), std::move(must), std::move(run)});
     };
-    for (const auto& [name, half] : {std::pair("plate 1 : 1 : 1e-2", Vec3d(1, 1, 1e-2)),
-                                     std::pair("plate 1 : 1 : 1e-5", Vec3d(1, 1, 1e-5)),
-                                     std::pair("rod 1 : 1e-2 : 1e-2", Vec3d(1, 1e-2, 1e-2)),
-                                     std::pair("rod 1 : 1e-5 : 1e-5", Vec3d(1, 1e-5, 1e-5)),
-                                     std::pair("1 : 1e-2 : 1e-5", Vec3d(1, 1e-2, 1e-5))})
-        add(name, "1 everywhere: nothing occludes a convex body; 0.02 for what the grid rounds",
+    for (const auto& [name, half] :
+         {std::pair("plate 1 : 1 : 1e-2", Vec3d(1, 1, 1e-2)), std::pair("plate 1 : 1 : 1e-5", Vec3d(1, 1, 1e-5)),
+          std::pair("rod 1 : 1e-2 : 1e-2", Vec3d(1, 1e-2, 1e-2)),
+          std::pair("rod 1 : 1e-5 : 1e-5", Vec3d(1, 1e-5, 1e-5)), std::pair("1 : 1e-2 : 1e-5", Vec3d(1, 1e-2, 1e-5))})
+        add(name,
+            "1 everywhere, because nothing occludes a convex shape; tolerance 0.02 for the rounding of the "
+            "grid",
             [half = half] {
-                return against_value(Baked(test::box_mesh(half, 8)), 1.0f, {"traced", "guided", "exact"},
-                                     0.02);
+                return against_value(Baked(test::box_mesh(half, 8)), 1.0f, {"traced", "guided", "exact"}, 0.02);
             });
     add("needles 1 : 3e3", "1 everywhere", [] {
         return against_value(Baked(needle_cylinder(10000)), 1.0f, {"traced", "guided", "exact"}, 0.02);
     });
     for (const double share : {1e-3, 1e-6, 1e-9})
         add(fmt::format("slivers, {:g} of their length high", share),
-            "RMSE of 0.01 from the surface without them: they change what faces weigh in the normals", [=] {
+            "RMSE at most 0.01 from the surface without them: they change the weights of faces in the "
+            "normals",
+            [=] {
                 return rmse_against(bumpy(), with_slivers(bumpy(), share), {"traced", "exact"}, 0.01);
             });
     add("a single triangle", "1 on both sides", [] {

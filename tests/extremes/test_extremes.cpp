@@ -1,4 +1,4 @@
-/// Every row of the table.
+/// Checks every row of the table of extreme cases.
 #include "extreme.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// What holds for any mesh, tried on random ones; the seed is printed.
+/// Properties of any mesh, tested on random ones. The tests print the seed.
 #include "extreme.h"
 #include "shapes.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned first_seed = 20261126, meshes = 6;
 
-/// Bodies with random bumps, one to three of them, that may run through each other.
+/// One to three shapes with random bumps, which may intersect.
 class Properties : public testing::TestWithParam<unsigned> {
   protected:
     Properties() : random_(GetParam()) {
@@ -28,9 +28,7 @@ class Properties : public testing::TestWithParam<unsigned> {
             test::add_part(mesh_, body(), uniform(0.3, 1.0), 1.5 * direction());
         std::printf("seed %u: %d bodies, %zu vertices\n", GetParam(), bodies, mesh_.vertex_count());
     }
-    double uniform(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random_);
-    }
+    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
     Vec3d direction() {
         std::normal_distribution<double> normal;
         return glm::normalize(Vec3d(normal(random_), normal(random_), normal(random_)));
@@ -64,11 +62,12 @@ class Properties : public testing::TestWithParam<unsigned> {
 
 TEST_P(Properties, ScaleAndPlaceDoNotMatter) {
     const double scale = std::pow(10.0, uniform(-20.0, 20.0));
-    const Vec3d way = scale * uniform(0.0, 1e3) * direction();
-    expect(rmse_against(mesh_, moved([&](const Vec3d& p) { return scale * p + way; }), all_kinds, 1e-3));
+    const Vec3d offset = scale * uniform(0.0, 1e3) * direction();
+    expect(rmse_against(mesh_, moved([&](const Vec3d& p) { return scale * p + offset; }), all_kinds, 1e-3));
 }
 
-/// Directions follow the surfels only as far as the frame around a normal does: what is left is their noise, and the voxels'.
+/// The tangent frame of a surfel does not rotate with the mesh, so ray directions differ, and voxels do not rotate
+/// either: what remains is noise.
 TEST_P(Properties, RotationMattersNoMoreThanNoise) {
     const glm::dquat turn = glm::angleAxis(uniform(0.0, 6.0), direction());
     const Mesh turned = moved([&](const Vec3d& p) { return turn * p; });
@@ -90,8 +89,8 @@ TEST_P(Properties, ALargerRadiusIsNeverBrighter) {
     const LevelStack field(voxelize(mesh.mesh, mesh.triangles, {.grid = {.radius = 0.5f}}));
     std::vector<float> exact(mesh.surfels.size(), 1.0f), traced = exact;
     for (const float radius : {0.01f, 0.05f, 0.1f, 0.3f, 0.5f}) {
-        const std::vector<float> e = bake(mesh.surfels, mesh.rays, Exact{.radius = radius}),
-                                 t = bake(mesh.surfels, field, Traced{.radius = radius});
+        const std::vector<float> e = evaluate_ao(mesh.surfels, mesh.rays, Exact{.radius = radius}),
+                                 t = evaluate_ao(mesh.surfels, field, Traced{.radius = radius});
         for (std::size_t i = 0; i < e.size(); ++i) {
             ASSERT_LE(e[i], exact[i]) << i;
             ASSERT_LE(t[i], traced[i]) << i;
@@ -103,7 +102,7 @@ TEST_P(Properties, ALargerRadiusIsNeverBrighter) {
 TEST_P(Properties, AnotherOccluderIsNeverBrighter) {
     Mesh more = mesh_;
     test::add_part(more, test::sphere_mesh(3), 0.4, mesh_.positions[random_() % mesh_.vertex_count()]);
-    // In the unit space of both, so that the rays are the same.
+    // Use the unit space of both shapes, so that the rays are the same.
     const MeasuredMesh both("both", more);
     const std::span<const Surfel> surfels = std::span(both.surfels).first(mesh_.vertex_count());
     std::vector<Vec3> unit;
@@ -112,10 +111,10 @@ TEST_P(Properties, AnotherOccluderIsNeverBrighter) {
     std::vector<Triangle> own;
     std::copy_if(both.triangles.begin(), both.triangles.end(), std::back_inserter(own),
                  [&](const Triangle& t) { return t[0] < mesh_.vertex_count(); });
-    const std::vector<float> alone = bake(surfels, RaySurface(unit, own), Exact{}),
-                             beside = bake(surfels, both.rays, Exact{});
+    const std::vector<float> alone = evaluate_ao(surfels, RaySurface(unit, own), Exact{}),
+                             occluded = evaluate_ao(surfels, both.rays, Exact{});
     for (std::size_t i = 0; i < alone.size(); ++i)
-        ASSERT_LE(beside[i], alone[i]) << i;
+        ASSERT_LE(occluded[i], alone[i]) << i;
 }
 
 TEST_P(Properties, SplitTrianglesChangeNothing) {
@@ -132,8 +131,7 @@ TEST_P(Properties, SplitTrianglesChangeNothing) {
     for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
         const std::uint32_t a = mesh_.face(f)[0], b = mesh_.face(f)[1], c = mesh_.face(f)[2];
         const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        for (const Triangle& t :
-             {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
+        for (const Triangle& t : {Triangle{a, ab, ca}, Triangle{ab, b, bc}, Triangle{ca, bc, c}, Triangle{ab, bc, ca}})
             split.add_face(t);
     }
     expect(rmse_against(mesh_, split, {"traced", "exact", "calibrated", "classic"}, 2e-3));
@@ -152,7 +150,7 @@ TEST_P(Properties, OrderDoesNotMatter) {
     std::shuffle(order.begin(), order.end(), random_);
     for (const std::size_t f : order) {
         const auto face = mesh_.face(f);
-        const std::size_t turn = random_() % 3; // which corner is the first
+        const std::size_t turn = random_() % 3; // which corner comes first
         shuffled.add_face(std::array{to[face[turn]], to[face[(turn + 1) % 3]], to[face[(turn + 2) % 3]]});
     }
     const Baked one(mesh_), other(shuffled);

@@ -65,15 +65,15 @@ TEST(Blend, BatchedFormsEqualScalarOnes) {
     }
 }
 
-/// A bound: it never changes faster than the way, and is never more than the distance to its own zero set.
+/// The Lipschitz constant is 1, so a value never exceeds the distance to the zero set.
 TEST(Blend, NeverPromisesMoreThanTheWay) {
     const std::vector<Vec3> points = random_points(400);
     const BlendedUnion<AnyField> both({ball, block, floor_plane}, 0.5f);
     const Difference<AnyField> cut({block, ball, Plane{{0, 1, 0}, -0.05f}}, 0.5f);
     for (const AnyField& field : {AnyField(both), AnyField(cut)})
         for (std::size_t i = 1; i < points.size(); ++i) {
-            const float way = glm::length(points[i] - points[i - 1]);
-            EXPECT_LE(std::fabs(field.map(points[i]) - field.map(points[i - 1])), way + 1e-5f);
+            const float distance = glm::length(points[i] - points[i - 1]);
+            EXPECT_LE(std::fabs(field.map(points[i]) - field.map(points[i - 1])), distance + 1e-5f);
         }
 }
 

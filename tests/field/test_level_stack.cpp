@@ -1,3 +1,4 @@
+#include "alcove/field/detail/bricks.h"
 #include "alcove/field/level_stack.h"
 
 #include "alcove/field/primitives.h"
@@ -42,7 +43,7 @@ TEST(LevelStack, KnowsTheInsideAsFarAsTheOutsideWhereItsLevelsDo) {
     VoxelizeOptions options;
     options.grid.voxel = 1.0f / 128.0f;
     options.grid.radius = 0.25f;
-    const Mesh ball = test::sphere_mesh(5); // its diagonal is √12 radii
+    const Mesh ball = test::sphere_mesh(5); // the diagonal of its box is √12 radii
     const auto triangles = triangulate(ball).triangles;
     const LevelStack thin(voxelize(ball, triangles, options));
     options.grid.inner_band = options.grid.outer_band;
@@ -54,14 +55,13 @@ TEST(LevelStack, KnowsTheInsideAsFarAsTheOutsideWhereItsLevelsDo) {
         float batched = 0.0f;
         thick.map({&p.x, &p.y, &p.z, 1}, any_reach, &batched);
         EXPECT_NEAR(batched, thick.map(p), 1e-6f);
-        EXPECT_GE(thin.map(p), -5.0f / 128.0f - 1e-6f); // what fills its inside
+        EXPECT_GE(thin.map(p), -5.0f / 128.0f - 1e-6f); // the value that fills its inside
     }
 }
 
 TEST(LevelStack, SimdSamplerEqualsItsScalarTwin) {
     const LevelStack field(stack_of(test::sphere_mesh(4), 1.0f / 64.0f, 0.3f));
-    const PointCloud cloud =
-        random_points(0.8f, 4099); // beyond the grid too, and no multiple of any lane count
+    const PointCloud cloud = random_points(0.8f, 4099); // extends beyond the grid; not a multiple of any lane count
     std::vector<float> simd(cloud.x.size());
     for (const Bricks& level : field.levels()) {
         sample_bricks(level.view(), cloud.points(), simd.data());
@@ -85,7 +85,7 @@ TEST(LevelStack, FarDistancesComeFromCoarserLevelsAndNeverSaturate) {
         const Vec3 direction = glm::normalize(Vec3(normal(random), normal(random), normal(random)));
         const float height = 0.5f * unit(random);
         const float d = field.map((sphere.radius + height) * direction);
-        // The voxel of the level in use is at most half the distance but never below the finest.
+        // The voxel of the level in use is at most half the distance, or the finest one.
         const float voxel = std::max(0.5f * height, 1.0f / 128.0f);
         EXPECT_NEAR(d, height, 0.06f * voxel) << "at height " << height;
     }
@@ -108,7 +108,7 @@ TEST(LevelStack, FarOutTheAnswerIsABoundThatGrowsWithTheDistance) {
             const Vec3 p = cloud.points()[i];
             EXPECT_EQ(distances[i], field.map(p));
             EXPECT_LE(distances[i], 1.0001f * sphere.map(p) + 1e-3f);
-            // No further from the box around the surface than that box is wide.
+            // The distance to the bounding box of the surface is a lower bound.
             EXPECT_GE(distances[i], std::max(field.reach(), sphere.map(p) - field.extent()));
         }
     }
@@ -137,15 +137,13 @@ TEST(LevelStack, ProbesOfKnownReachReadOneLevelAndAgree) {
     }
 }
 
-/// Between voxel centres nothing but trilinear interpolation is lost.
+/// Between voxel centres the only error is that of trilinear interpolation.
 TEST(LevelStack, ErrorBetweenCentresIsThatOfInterpolatingExactValues) {
     const test::RealMesh real("fandisk.off");
     const LevelStack field(stack_of(real.mesh, 1.0f / 64.0f, 0.05f));
     const test::ExactSurface exact(real.mesh, real.triangles, real.frame);
     const float voxel = field.resolution();
-    const auto truth = [&](const Vec3& p) {
-        return exact.distance(p) * (exact.winding_number(p) > 0.5 ? -1.0 : 1.0);
-    };
+    const auto truth = [&](const Vec3& p) { return exact.distance(p) * (exact.winding_number(p) > 0.5 ? -1.0 : 1.0); };
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit;
     double ours = 0.0, ideal = 0.0;

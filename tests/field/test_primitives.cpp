@@ -1,4 +1,3 @@
-#include "alcove/field/combine.h"
 #include "alcove/field/field.h"
 #include "alcove/field/primitives.h"
 
@@ -9,7 +8,7 @@
 namespace alcove {
 namespace {
 
-/// Every primitive somewhere off the origin, of no special size.
+/// Primitives of general position and size.
 const Plane plane{glm::normalize(Vec3(1, 2, -2)), 0.3f};
 const Sphere sphere{{0.2f, -0.1f, 0.3f}, 0.7f};
 const Cuboid cuboid{{-0.3f, 0.2f, 0.1f}, {0.5f, 0.3f, 0.8f}};
@@ -45,8 +44,8 @@ const Capsule& Primitive<Capsule>::shape() {
 using Shapes = testing::Types<Plane, Sphere, Cuboid, Torus, Capsule>;
 TYPED_TEST_SUITE(Primitive, Shapes);
 
-/// A function is the distance to its own zero set where it is 1 steep and a step of its length along the
-/// gradient lands on zero.
+/// A function is the distance to its own zero set where its gradient has length 1 and a step of its value along the
+/// gradient ends on the zero set.
 TYPED_TEST(Primitive, IsTheDistanceToItsOwnZeroSet) {
     const auto& shape = TestFixture::shape();
     std::mt19937 random(7);
@@ -55,12 +54,10 @@ TYPED_TEST(Primitive, IsTheDistanceToItsOwnZeroSet) {
     for (int i = 0; i < 2000; ++i) {
         const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
         const float h = 1e-3f, d = shape.map(p);
-        const auto slope = [&](const Vec3& e) {
-            return (shape.map(p + h * e) - shape.map(p - h * e)) / (2 * h);
-        };
+        const auto slope = [&](const Vec3& e) { return (shape.map(p + h * e) - shape.map(p - h * e)) / (2 * h); };
         const Vec3 gradient(slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1}));
         if (std::fabs(glm::length(gradient) - 1.0f) > 1e-2f)
-            continue; // the medial axis, where two sides are as near
+            continue; // the medial axis, equally near to two sides
         ++checked;
         EXPECT_NEAR(shape.map(p - d * glm::normalize(gradient)), 0.0f, 5e-3f);
     }
@@ -116,7 +113,7 @@ TEST(Combine, BatchedFormsEqualScalarOnes) {
     }
 }
 
-/// A field of one layer: its sign says nothing beyond it.
+/// A sheet: only a thin layer behind it is negative.
 struct Sheet {
     Plane plane;
     float map(const Vec3& p) const {
@@ -154,7 +151,7 @@ TEST(Combine, ASheetJoinsASolidWithoutHidingInIt) {
         for (const float y : {-2.0f, -0.5f, -0.005f, 0.005f, 0.5f, 2.0f}) {
             const Vec3 p(x, y, 0.1f);
             const float s = solid.map(p);
-            // All of the solid is its surface: a ray that starts in it ends there.
+            // The solid is 0 everywhere inside, so that a ray that starts in it ends there.
             if (s <= 0.0f)
                 EXPECT_EQ(field.map(p), 0.0f);
             else
@@ -177,8 +174,7 @@ TEST(Combine, APlacedFieldMeansTheSamePlacesOfTheScene) {
     const Frame from{{10, -3, 2}, 4.0}, to{{8, 0, 0}, 0.5};
     const auto field = placed(sphere, from, to);
     for (const Vec3d& p : {Vec3d(10, -3, 2), Vec3d(13, 1, 2.5), Vec3d(8.5, -2, 1)})
-        EXPECT_NEAR(field.map(to.to_unit(p)) * to.diagonal, sphere.map(from.to_unit(p)) * from.diagonal,
-                    1e-5);
+        EXPECT_NEAR(field.map(to.to_unit(p)) * to.diagonal, sphere.map(from.to_unit(p)) * from.diagonal, 1e-5);
 }
 
 }

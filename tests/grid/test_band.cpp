@@ -10,19 +10,19 @@
 namespace alcove {
 namespace {
 
-/// Small plates above one another: nodes of the tree are thousands of voxels tall and less than one wide.
+/// A tall stack of small plates: nodes of the tree are thousands of voxels tall and less than one wide.
 TEST(Band, TallThinNodesLoseNothing) {
     std::vector<Vec3d> positions;
     std::vector<Triangle> triangles;
-    constexpr int apart = 32; // all plates look the same to the voxels around them
+    constexpr int apart = 32; // a multiple of brick_size, so that all plates have equal bricks
     for (std::uint32_t k = 0; k < 4096; ++k) {
         const auto first = static_cast<std::uint32_t>(positions.size());
         for (const Vec3d& corner : {Vec3d(0.25, 0, 0), Vec3d(-0.15, 0.2, 0), Vec3d(-0.15, -0.2, 0)})
             positions.push_back(Vec3d(20.3, 17.7, 10.37 + apart * k) + corner);
         triangles.push_back({first, first + 1, first + 2});
     }
-    const FragmentLeaves pieces(positions, triangles);
-    const TriangleTree tree(pieces);
+    const FragmentLeaves fragments(positions, triangles);
+    const TriangleTree tree(fragments);
     const Pseudonormals normals(positions, triangles);
     const Band band(tree, normals, 5.0f);
     std::array<float, brick_volume> unknown;

@@ -1,4 +1,6 @@
+#include "alcove/field/detail/bricks.h"
 #include "alcove/grid/detail/clustered.h"
+#include "alcove/grid/detail/plan.h"
 
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
@@ -18,18 +20,18 @@
 namespace alcove {
 namespace {
 
-/// A sphere of a radius of 10 around (11, 11, 11): 130,000 triangles, a hundred a unit of area.
+/// A sphere of radius 10 around (11, 11, 11): 130,000 triangles, about a hundred per unit of area.
 Mesh dense_sphere() {
     Mesh mesh;
     test::add_part(mesh, test::sphere_mesh(7), 10.0, Vec3d(11.0));
     return mesh;
 }
 
-Mesh shaken(Mesh mesh, double size) {
+Mesh noisy(Mesh mesh, double size) {
     std::mt19937 random(1);
-    std::normal_distribution<double> shake(0.0, size);
+    std::normal_distribution<double> noise(0.0, size);
     for (Vec3d& p : mesh.positions)
-        p += Vec3d(shake(random), shake(random), shake(random));
+        p += Vec3d(noise(random), noise(random), noise(random));
     return mesh;
 }
 
@@ -39,12 +41,12 @@ ClusteredSurface clustered(const Mesh& mesh, double cell) {
 
 TEST(ClusteredSurface, HasTheTrianglesThatCellsTell) {
     const Mesh mesh = dense_sphere();
-    const ClusteredSurface thin = clustered(mesh, 0.5);
-    const auto count = static_cast<double>(thin.surface().triangles.size()), area = 400.0 * std::numbers::pi;
+    const ClusteredSurface reduced = clustered(mesh, 0.5);
+    const auto count = static_cast<double>(reduced.surface().triangles.size()), area = 400.0 * std::numbers::pi;
     EXPECT_LT(count, 16.0 * area);
     EXPECT_GT(count, 8.0 * area);
-    for (const Vec3d& p : thin.surface().positions)
-        EXPECT_NEAR(glm::length(p - Vec3d(11.0)), 10.0, 0.02); // the rise of an arc over a cell's diagonal
+    for (const Vec3d& p : reduced.surface().positions)
+        EXPECT_NEAR(glm::length(p - Vec3d(11.0)), 10.0, 0.02); // the sagitta of an arc over a cell's diagonal
 }
 
 TEST(ClusteredSurface, IsTheSameWhereEveryVertexHasItsCell) {
@@ -52,15 +54,15 @@ TEST(ClusteredSurface, IsTheSameWhereEveryVertexHasItsCell) {
     Mesh moved;
     test::add_part(moved, mesh, 1.0, Vec3d(9.25));
     const std::vector<Triangle> triangles = triangulate(moved).triangles;
-    const ClusteredSurface thin({moved.positions, triangles}, 0.5);
-    EXPECT_TRUE(std::ranges::equal(thin.surface().positions, moved.positions));
-    EXPECT_TRUE(std::ranges::equal(thin.surface().triangles, triangles));
+    const ClusteredSurface reduced({moved.positions, triangles}, 0.5);
+    EXPECT_TRUE(std::ranges::equal(reduced.surface().positions, moved.positions));
+    EXPECT_TRUE(std::ranges::equal(reduced.surface().triangles, triangles));
 }
 
 TEST(ClusteredSurface, OfAClosedOneIsClosed) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
-    const ClusteredSurface thin = clustered(dense_sphere(), 0.5);
-    for (const Triangle& t : thin.surface().triangles)
+    const ClusteredSurface reduced = clustered(dense_sphere(), 0.5);
+    for (const Triangle& t : reduced.surface().triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[k], b = t[(k + 1) % 3];
             runs[std::minmax(a, b)] += a < b ? 1 : -1;
@@ -70,16 +72,16 @@ TEST(ClusteredSurface, OfAClosedOneIsClosed) {
 
 TEST(ClusteredSurface, TurnsAsBefore) {
     double volume = 0.0;
-    const ClusteredSurface thin = clustered(shaken(dense_sphere(), 0.1), 0.5);
-    for (const Triangle& t : thin.surface().triangles) {
-        const auto corner = [&](std::size_t k) { return thin.surface().positions[t[k]] - Vec3d(11.0); };
+    const ClusteredSurface reduced = clustered(noisy(dense_sphere(), 0.1), 0.5);
+    for (const Triangle& t : reduced.surface().triangles) {
+        const auto corner = [&](std::size_t k) { return reduced.surface().positions[t[k]] - Vec3d(11.0); };
         volume += glm::dot(corner(0), glm::cross(corner(1), corner(2))) / 6.0;
     }
     EXPECT_NEAR(volume, 4000.0 * std::numbers::pi / 3.0, 0.02 * 4000.0);
 }
 
-/// No two triangles share a vertex.
-Mesh torn(const Mesh& mesh) {
+/// A copy in which no two triangles share a vertex.
+Mesh unwelded(const Mesh& mesh) {
     Mesh soup;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto first = static_cast<std::uint32_t>(soup.positions.size());
@@ -92,12 +94,12 @@ Mesh torn(const Mesh& mesh) {
 
 TEST(ClusteredSurface, DoesNotOpenSeams) {
     const Mesh sphere = dense_sphere();
-    const ClusteredSurface whole = clustered(sphere, 0.5), soup = clustered(torn(sphere), 0.5);
+    const ClusteredSurface whole = clustered(sphere, 0.5), soup = clustered(unwelded(sphere), 0.5);
     EXPECT_EQ(soup.surface().triangles.size(), whole.surface().triangles.size());
     EXPECT_EQ(soup.surface().positions.size(), whole.surface().positions.size());
 }
 
-/// Parts smaller than a cell.
+/// Many parts smaller than a cell.
 Mesh dust(int along) {
     Mesh mesh;
     for (int i = 0; i < along; ++i)
@@ -112,7 +114,7 @@ TEST(ClusteredSurface, KeepsPartsSmallerThanACell) {
 }
 
 TEST(ClusteredSurface, KeepsStrutsThinnerThanACell) {
-    // Between two spheres: three sides of two triangles each, of vertices that the spheres have.
+    // A triangular strut between two spheres: three sides of two triangles each, on vertices of the spheres.
     Mesh mesh = dense_sphere();
     const auto second = static_cast<std::uint32_t>(mesh.positions.size());
     test::add_part(mesh, test::sphere_mesh(7), 10.0, Vec3d(36.0, 11.0, 11.0));
@@ -124,10 +126,10 @@ TEST(ClusteredSurface, KeepsStrutsThinnerThanACell) {
         mesh.add_face(std::array{b, a, second + a});
         mesh.add_face(std::array{b, second + a, second + b});
     }
-    const ClusteredSurface thin = clustered(mesh, 0.5);
-    EXPECT_EQ(std::ranges::count_if(thin.surface().triangles,
+    const ClusteredSurface reduced = clustered(mesh, 0.5);
+    EXPECT_EQ(std::ranges::count_if(reduced.surface().triangles,
                                     [&](const Triangle& t) {
-                                        const std::span<const Vec3d> p = thin.surface().positions;
+                                        const std::span<const Vec3d> p = reduced.surface().positions;
                                         return glm::length(p[t[0]] - p[t[1]]) > 20.0 ||
                                                glm::length(p[t[1]] - p[t[2]]) > 20.0;
                                     }),
@@ -148,14 +150,14 @@ TEST(ClusteredSurface, KeepsTheSidesOfAThinWallApart) {
                 mesh.add_face(std::array{at, at + n + 1, at + n + 2, at + 1});
             }
     }
-    const ClusteredSurface thin = clustered(mesh, 0.5);
-    EXPECT_LT(thin.surface().triangles.size(), 200u);
+    const ClusteredSurface reduced = clustered(mesh, 0.5);
+    EXPECT_LT(reduced.surface().triangles.size(), 200u);
     const auto at = [&](double z) {
-        return std::ranges::count_if(thin.surface().positions,
+        return std::ranges::count_if(reduced.surface().positions,
                                      [&](const Vec3d& p) { return std::fabs(p.z - z) < 1e-12; });
     };
     EXPECT_EQ(at(1.1), at(1.3));
-    EXPECT_EQ(at(1.1) + at(1.3), static_cast<std::ptrdiff_t>(thin.surface().positions.size()));
+    EXPECT_EQ(at(1.1) + at(1.3), static_cast<std::ptrdiff_t>(reduced.surface().positions.size()));
 }
 
 TEST(ClusteredSurface, VerticesOfNoTriangleTakeNoPart) {
@@ -163,45 +165,45 @@ TEST(ClusteredSurface, VerticesOfNoTriangleTakeNoPart) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     std::vector<Vec3d> more = mesh.positions;
     more.insert(more.end(), {more[0] + 0.01, Vec3d(NAN), Vec3d(INFINITY, 0, 0)});
-    const ClusteredSurface thin({mesh.positions, triangles}, 0.5), with({more, triangles}, 0.5);
-    EXPECT_TRUE(std::ranges::equal(with.surface().triangles, thin.surface().triangles));
-    EXPECT_TRUE(std::ranges::equal(with.surface().positions.first(thin.surface().positions.size()),
-                                   thin.surface().positions));
+    const ClusteredSurface reduced({mesh.positions, triangles}, 0.5), with({more, triangles}, 0.5);
+    EXPECT_TRUE(std::ranges::equal(with.surface().triangles, reduced.surface().triangles));
+    EXPECT_TRUE(std::ranges::equal(with.surface().positions.first(reduced.surface().positions.size()),
+                                   reduced.surface().positions));
 }
 
 TEST(ClusteredSurface, ThreadsDoNotMatter) {
     const auto with = [](unsigned threads) {
         const ThreadLimit limit(threads);
-        return clustered(shaken(dense_sphere(), 0.1), 0.5);
+        return clustered(noisy(dense_sphere(), 0.1), 0.5);
     };
     const ClusteredSurface one = with(1), four = with(4);
     EXPECT_TRUE(std::ranges::equal(one.surface().positions, four.surface().positions));
     EXPECT_TRUE(std::ranges::equal(one.surface().triangles, four.surface().triangles));
 }
 
-GridStack stack_of(const Mesh& mesh, bool thin, double memory_limit = GridOptions{}.memory_limit) {
+GridStack stack_of(const Mesh& mesh, bool reduced, double memory_limit = GridOptions{}.memory_limit) {
     VoxelizeOptions options;
-    options.grid = {.voxel = 1.0f / 32.0f, .inner_band = 5.0f, .cluster = thin, .memory_limit = memory_limit};
+    options.grid = {.voxel = 1.0f / 32.0f, .inner_band = 5.0f, .cluster = reduced, .memory_limit = memory_limit};
     return voxelize(mesh, triangulate(mesh).triangles, options);
 }
 
-/// No point of the surface is further than two diagonals of a cell from what becomes of it, so no distance changes by more.
+/// No point of the surface moves by more than two diagonals of a cell, so no distance changes by more.
 TEST(ThinnedGrids, AreNearExactOnesAndOfTheSameSigns) {
     struct Case {
         Mesh mesh;
         double mean; ///< voxels
     };
-    // The rise of an arc of 9 voxels over the diagonals of two cells, or that and a little of what is shaken.
-    constexpr double rise = 12.0 * cluster_cell * cluster_cell / (8.0 * 9.0);
+    // The sagitta of an arc of radius 9 voxels over two cell diagonals; more for the noisy mesh.
+    constexpr double sagitta = 12.0 * cluster_cell * cluster_cell / (8.0 * 9.0);
     const Mesh open = test::sphere_mesh(7, [](const Vec3d& p) { return p.y > 0.0; });
     for (const auto& [mesh, mean] :
-         {Case{dense_sphere(), rise}, {shaken(dense_sphere(), 0.05), rise + 0.03}, {open, rise}}) {
-        const GridStack exact = stack_of(mesh, false), thin = stack_of(mesh, true);
+         {Case{dense_sphere(), sagitta}, {noisy(dense_sphere(), 0.05), sagitta + 0.03}, {open, sagitta}}) {
+        const GridStack exact = stack_of(mesh, false), reduced = stack_of(mesh, true);
         EXPECT_FALSE(exact.clustered);
-        ASSERT_TRUE(thin.clustered);
-        EXPECT_EQ(thin.sign, exact.sign);
-        ASSERT_EQ(thin.levels.size(), exact.levels.size());
-        const Bricks field = LevelStack(thin).levels().front(), expected = LevelStack(exact).levels().front();
+        ASSERT_TRUE(reduced.clustered);
+        EXPECT_EQ(reduced.sign, exact.sign);
+        ASSERT_EQ(reduced.levels.size(), exact.levels.size());
+        const Bricks field = LevelStack(reduced).levels().front(), expected = LevelStack(exact).levels().front();
         const float voxel = field.voxel(), limit = 4.0f * voxel;
         double sum = 0.0;
         std::size_t count = 0;
@@ -209,15 +211,15 @@ TEST(ThinnedGrids, AreNearExactOnesAndOfTheSameSigns) {
             for (p.y = -0.5f; p.y < 0.5f; p.y += voxel)
                 for (p.z = -0.5f; p.z < 0.5f; p.z += voxel) {
                     const Vec3 centre = field.origin() + voxel * glm::round((p - field.origin()) / voxel);
-                    const float found = field.map(centre), right = expected.map(centre);
-                    if (std::fabs(right) > limit)
+                    const float found = field.map(centre), correct = expected.map(centre);
+                    if (std::fabs(correct) > limit)
                         continue;
-                    const float off = std::fabs(std::fabs(found) - std::fabs(right)) / voxel;
-                    EXPECT_LE(off, 2.0 * std::sqrt(3.0) * cluster_cell);
+                    const float error = std::fabs(std::fabs(found) - std::fabs(correct)) / voxel;
+                    EXPECT_LE(error, 2.0 * std::sqrt(3.0) * cluster_cell);
                     if (exact.sign == Sign::solid) {
-                        EXPECT_EQ(std::signbit(found), std::signbit(right));
+                        EXPECT_EQ(std::signbit(found), std::signbit(correct));
                     }
-                    sum += off;
+                    sum += error;
                     ++count;
                 }
         EXPECT_GT(count, 4000u);
@@ -228,9 +230,9 @@ TEST(ThinnedGrids, AreNearExactOnesAndOfTheSameSigns) {
 TEST(ThinnedGrids, AreExactWhereTrianglesAreFew) {
     Mesh mesh;
     test::add_part(mesh, test::sphere_mesh(5), 10.0, Vec3d(11.0));
-    const GridStack exact = stack_of(mesh, false), thin = stack_of(mesh, true);
-    EXPECT_FALSE(thin.clustered);
-    EXPECT_EQ(thin.levels.front().active_voxels, exact.levels.front().active_voxels);
+    const GridStack exact = stack_of(mesh, false), reduced = stack_of(mesh, true);
+    EXPECT_FALSE(reduced.clustered);
+    EXPECT_EQ(reduced.levels.front().active_voxels, exact.levels.front().active_voxels);
 }
 
 TEST(ThinnedGrids, OfWhatCannotBeThinnedAreRefusedWhereAllDoNotFit) {
@@ -239,7 +241,7 @@ TEST(ThinnedGrids, OfWhatCannotBeThinnedAreRefusedWhereAllDoNotFit) {
     EXPECT_NO_THROW(stack_of(sphere, true, limit(sphere)));
     EXPECT_THROW(stack_of(sphere, false, limit(sphere)), LimitError);
     EXPECT_THROW(stack_of(parts, true, limit(parts)), LimitError);
-    EXPECT_FALSE(stack_of(parts, true).clustered) << "none is left out";
+    EXPECT_FALSE(stack_of(parts, true).clustered) << "all triangles are kept";
 }
 
 }

@@ -20,7 +20,7 @@ TEST(Twins, OnlyTheFirstOfThoseOnTheSamePlacesStays) {
     EXPECT_TRUE(without_duplicate_faces(positions, {}).empty());
 }
 
-/// A body whose faces are there from both sides has no inside: it is the sheet of those that come first.
+/// A body with only double-sided faces has no inside: it equals the sheet of the first face of each pair.
 TEST(Twins, OfAWholeMeshMakeNoDifferenceToItsSheet) {
     const Mesh sphere = test::sphere_mesh(3);
     Mesh both = sphere, backs;
@@ -35,8 +35,7 @@ TEST(Twins, OfAWholeMeshMakeNoDifferenceToItsSheet) {
     ASSERT_EQ(twice.sign, Sign::sheet);
     const LevelStack of_twice(twice), of_once(once);
     for (int i = 0; i < 4000; ++i) {
-        const Vec3 p(0.7f * std::sin(1.1f * i), 0.7f * std::sin(1.7f * i + 1.0f),
-                     0.7f * std::sin(2.3f * i + 2.0f));
+        const Vec3 p(0.7f * std::sin(1.1f * i), 0.7f * std::sin(1.7f * i + 1.0f), 0.7f * std::sin(2.3f * i + 2.0f));
         ASSERT_EQ(of_twice.map(p), of_once.map(p));
     }
 }

@@ -1,4 +1,4 @@
-/// Every voxel of level sets against brute force, closed forms and another voxelizer.
+/// Compares every voxel of level sets with brute force, closed forms and another voxelizer.
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
 #include "alcove/grid/detail/vdb_grid.h"
@@ -42,16 +42,14 @@ double segment_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
 }
 
 double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    const double sides =
-        std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
+    const double sides = std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
     const Vec3d n = glm::cross(b - a, c - a);
-    const bool over = glm::dot(glm::cross(b - a, p - a), n) >= 0.0 &&
-                      glm::dot(glm::cross(c - b, p - b), n) >= 0.0 &&
+    const bool over = glm::dot(glm::cross(b - a, p - a), n) >= 0.0 && glm::dot(glm::cross(c - b, p - b), n) >= 0.0 &&
                       glm::dot(glm::cross(a - c, p - c), n) >= 0.0 && glm::dot(n, n) > 0.0;
     return over ? std::min(sides, std::fabs(glm::dot(p - a, n)) / glm::length(n)) : sides;
 }
 
-/// Triangles anywhere in a unit cube, their sides about `size` long; every third is a sliver.
+/// Random triangles in a unit cube with sides about `size` long; every third is a sliver.
 Mesh soup(int triangles, double size, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit;
@@ -79,8 +77,8 @@ TEST(LevelSets, DistancesToTriangleSoupsAreThoseOfBruteForce) {
             for_each_voxel(stack, level, [&](const Vec3d& p, double value) {
                 double exact = INFINITY;
                 for (std::size_t t = 0; t < mesh.positions.size(); t += 3)
-                    exact = std::min(exact, triangle_distance(p, mesh.positions[t], mesh.positions[t + 1],
-                                                              mesh.positions[t + 2]));
+                    exact = std::min(
+                        exact, triangle_distance(p, mesh.positions[t], mesh.positions[t + 1], mesh.positions[t + 2]));
                 largest = std::max(largest, std::fabs(std::fabs(value) - exact / unit));
             });
             EXPECT_LE(largest, 1e-4) << count << " triangles, voxel " << level.voxel;
@@ -88,7 +86,7 @@ TEST(LevelSets, DistancesToTriangleSoupsAreThoseOfBruteForce) {
     }
 }
 
-/// The band holds exactly the voxels within its width.
+/// The band consists of exactly the voxels within its width.
 TEST(LevelSets, NoVoxelOfTheBandIsMissing) {
     const Mesh mesh = soup(20, 0.3, 3);
     const GridStack stack = stack_of(mesh, 1.0f / 24.0f, 0.4f, SignChoice::sheet);
@@ -121,8 +119,7 @@ TEST(LevelSets, AgreeWithOpenVdbOnASphere) {
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     for (const Vec3d& p : mesh.positions) {
-        const Vec3d q =
-            ((p - stack.frame.center) / stack.frame.diagonal - Vec3d(level.origin)) / double(level.voxel);
+        const Vec3d q = ((p - stack.frame.center) / stack.frame.diagonal - Vec3d(level.origin)) / double(level.voxel);
         points.emplace_back(q.x, q.y, q.z);
     }
     for (const Triangle& t : triangulate(mesh).triangles)
@@ -151,8 +148,7 @@ TEST(LevelSets, DoNotDependOnTheThreads) {
         }
         for (std::size_t l = 0; l < stacks[0].levels.size(); ++l)
             for (const GridStack& other : stacks) {
-                const auto &a = stacks[0].levels[l].grid->grid->tree(),
-                           &b = other.levels[l].grid->grid->tree();
+                const auto &a = stacks[0].levels[l].grid->grid->tree(), &b = other.levels[l].grid->grid->tree();
                 ASSERT_TRUE(a.hasSameTopology(b));
                 auto there = b.cbeginValueAll();
                 for (auto here = a.cbeginValueAll(); here; ++here, ++there)
@@ -187,7 +183,7 @@ TEST(Signs, OverlappingBallsAreOneSolid) {
             double outside = INFINITY;
             for (const Ball& ball : balls)
                 outside = std::min(outside, signed_distance(ball, p));
-            if (std::fabs(outside) > 0.01) { // facets lie that far within the ball
+            if (std::fabs(outside) > 0.01) { // the facets are up to this far inside the ball
                 ASSERT_EQ(value < 0.0, outside < 0.0);
             }
         });
@@ -216,12 +212,11 @@ TEST(Signs, ShellsInShellsAndShellsInsideOutStaySheets) {
     EXPECT_EQ(sign({outer, inner, beside}), Sign::sheet);
     EXPECT_EQ(sign({{{0, 0, 0}, 1.0, true}}), Sign::sheet);
     EXPECT_EQ(sign({outer, {{2, 0, 0}, 0.5, true}}), Sign::sheet);
-    // A cavity with a core: three shells, all of them walls of the solid.
+    // A cavity with a core: three shells, which all bound the solid.
     EXPECT_EQ(sign({outer, {{0.1, 0, 0}, 0.5, true}, {{0.1, 0, 0}, 0.2}}), Sign::solid);
 }
 
-/// Faces, edges and corners of boxes that lie in the columns of voxels: each column belongs to one of two
-/// neighbours, so it is never counted twice and never missed.
+/// Faces, edges and corners of boxes on columns of voxels: each column is assigned to exactly one of two neighbours.
 TEST(Signs, BoxesOnTheLatticeAreClosed) {
     Mesh mesh = test::box_mesh({1, 1, 1}, 16);
     test::add_part(mesh, test::box_mesh({1, 1, 1}, 16), 0.5, {1, 0.25, 0.125});

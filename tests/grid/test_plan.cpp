@@ -70,11 +70,11 @@ TEST(Plan, TrianglesThatDoNotFitAreRefused) {
 
 TEST(Plan, AVoxelFitsOrIsRefusedWhateverTheLimit) {
     const Mesh mesh = test::sphere_mesh(5);
-    for (const bool thin : {false, true}) {
+    for (const bool cluster : {false, true}) {
         std::size_t refused = 0, clustered = 0, whole = 0;
         for (double limit = 1e5; limit < 1e9; limit *= 1.01)
             try {
-                const LevelPlan p = plan(mesh, {.cluster = thin, .memory_limit = limit});
+                const LevelPlan p = plan(mesh, {.cluster = cluster, .memory_limit = limit});
                 EXPECT_LE(p.bytes, limit);
                 EXPECT_LE(p.voxel, 1.0f);
                 ++(p.cluster ? clustered : whole);
@@ -83,11 +83,11 @@ TEST(Plan, AVoxelFitsOrIsRefusedWhateverTheLimit) {
             }
         EXPECT_GT(refused, 0u);
         EXPECT_GT(whole, 0u);
-        EXPECT_EQ(clustered > 0, thin);
+        EXPECT_EQ(clustered > 0, cluster);
     }
 }
 
-/// The pieces that long triangles are cut into, at 60 bytes each, are the most of it.
+/// The fragments of long triangles, at 60 bytes each, dominate the estimate.
 TEST(Plan, NeedlesAreCountedByTheirLength) {
     Mesh needles;
     constexpr std::uint32_t count = 10'000;
@@ -103,10 +103,10 @@ TEST(Plan, NeedlesAreCountedByTheirLength) {
 
 TEST(Plan, FinerVoxelsNeverTakeLess) {
     const Mesh mesh = test::sphere_mesh(5);
-    for (const bool thin : {false, true}) {
+    for (const bool cluster : {false, true}) {
         double last = 0.0;
         for (float voxel = 0.5f; voxel > 1e-3f; voxel *= 0.97f) {
-            const double bytes = plan(mesh, {.voxel = voxel, .cluster = thin}).bytes;
+            const double bytes = plan(mesh, {.voxel = voxel, .cluster = cluster}).bytes;
             EXPECT_GT(bytes, last);
             last = bytes;
         }
@@ -114,26 +114,23 @@ TEST(Plan, FinerVoxelsNeverTakeLess) {
 }
 
 TEST(Plan, DenseSurfacesAreThinnedToWhatTheirVoxelsTell) {
-    const GridOptions thin{.cluster = true};
+    const GridOptions cluster{.cluster = true};
     EXPECT_EQ(triangles_voxelized(1.0, 1'000'000, 0.01, {}), 1e6);
-    EXPECT_LT(triangles_voxelized(1.0, 1'000'000, 0.01, thin), 2e5);
-    EXPECT_EQ(triangles_voxelized(1.0, 10'000'000, 0.01, thin),
-              triangles_voxelized(1.0, 1'000'000, 0.01, thin));
-    EXPECT_EQ(triangles_voxelized(1.0, 1'000'000, 0.004, thin), 1e6);
+    EXPECT_LT(triangles_voxelized(1.0, 1'000'000, 0.01, cluster), 2e5);
+    EXPECT_EQ(triangles_voxelized(1.0, 10'000'000, 0.01, cluster), triangles_voxelized(1.0, 1'000'000, 0.01, cluster));
+    EXPECT_EQ(triangles_voxelized(1.0, 1'000'000, 0.004, cluster), 1e6);
 }
 
-/// What is promised before allocation holds for what is allocated: grids and bricks fit the estimate, and it
-/// is not many times too high.
+/// The estimate before allocation covers the allocated grids and bricks, and is not many times too high.
 TEST(Plan, TheEstimateCoversTheGrids) {
-    for (const Mesh& mesh :
-         {test::sphere_mesh(5), test::box_mesh({1, 1, 1}, 4), test::box_mesh({1, 1, 0.001}, 4)}) {
+    for (const Mesh& mesh : {test::sphere_mesh(5), test::box_mesh({1, 1, 1}, 4), test::box_mesh({1, 1, 0.001}, 4)}) {
         VoxelizeOptions options;
         options.grid.voxel = 1.0f / 200.0f;
         const GridStack stack = voxelize(mesh, triangulate(mesh).triangles, options);
-        const double held = static_cast<double>(stack.bytes() + LevelStack(stack).bytes());
+        const double allocated = static_cast<double>(stack.bytes() + LevelStack(stack).bytes());
         const double estimate = plan(mesh, options.grid).bytes;
-        EXPECT_LT(held, estimate);
-        EXPECT_GT(held, estimate / 20.0);
+        EXPECT_LT(allocated, estimate);
+        EXPECT_GT(allocated, estimate / 20.0);
     }
 }
 
@@ -160,10 +157,10 @@ TEST(Voxelize, NeitherScaleNorPlaceChangesTheField) {
 TEST(Voxelize, VerticesThatAreNoNumbersDoNotMatter) {
     const Mesh mesh = test::sphere_mesh(3);
     const GridStack alone = voxelize(mesh, triangulate(mesh).triangles);
-    for (const Vec3d& odd :
+    for (const Vec3d& invalid :
          {Vec3d(1e30, 0, NAN), Vec3d(0, 1e30, NAN), Vec3d(1e30, NAN, 0), Vec3d(INFINITY, 0, 0), Vec3d(NAN)}) {
         Mesh with = mesh;
-        with.positions.push_back(odd);
+        with.positions.push_back(invalid);
         const GridStack stack = voxelize(with, triangulate(with).triangles);
         EXPECT_EQ(stack.sign, alone.sign);
         EXPECT_EQ(stack.levels.front().active_voxels, alone.levels.front().active_voxels);
@@ -177,9 +174,9 @@ TEST(Voxelize, ThreadsDoNotMatter) {
         const LevelStack field(voxelize(mesh, triangulate(mesh).triangles));
         std::vector<float> values;
         for (int i = 0; i < 20000; ++i)
-            values.push_back(field.map(0.4f * Vec3(std::sin(0.1f * static_cast<float>(i)),
-                                                   std::cos(0.37f * static_cast<float>(i)),
-                                                   std::sin(0.73f * static_cast<float>(i)))));
+            values.push_back(
+                field.map(0.4f * Vec3(std::sin(0.1f * static_cast<float>(i)), std::cos(0.37f * static_cast<float>(i)),
+                                      std::sin(0.73f * static_cast<float>(i)))));
         return values;
     };
     EXPECT_EQ(sample(1), sample(2));

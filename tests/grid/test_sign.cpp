@@ -58,11 +58,11 @@ TEST(Solidity, ShellsInShellsAreSheets) {
 TEST(Solidity, FacesThatTurnTheWrongWayAreTold) {
     std::vector<Face> faces = faces_of(cube());
     std::reverse(faces[2].begin(), faces[2].end());
-    expect_sheet_and(with_faces(cube(), faces), "at 4 edges the neighbouring faces turn opposite ways");
+    expect_sheet_and(with_faces(cube(), faces), "at 4 edges the neighbouring faces have opposite orientations");
     expect_sheet_and(inverted(cube()), "1 of 1 parts face inward");
 }
 
-/// No column through a voxel meets it, but its edges do not cancel.
+/// No column through a voxel centre hits it, but its edges do not cancel.
 TEST(Solidity, ATinyPartThatIsOpenMakesASheet) {
     Mesh dust = cube({1.001, 0.501, 0.501}, 0.0001);
     std::vector<Face> faces = faces_of(dust);

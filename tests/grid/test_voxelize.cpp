@@ -1,3 +1,4 @@
+#include "alcove/field/detail/bricks.h"
 #include "alcove/grid/voxelize.h"
 
 #include "alcove/field/level_stack.h"
@@ -16,12 +17,12 @@ namespace {
 
 struct Errors {
     double mean = 0.0, largest = 0.0;
-    double wrong_sign = 0.0;    ///< share of the voxels
+    double wrong_sign = 0.0;    ///< share of the samples
     double deepest_wrong = 0.0; ///< voxels
     std::size_t samples = 0;
 };
 
-/// Values at random voxel centres of the band of a level against exact ones, in its voxels.
+/// Compares the values at random voxel centres in the band of a level with exact ones, in voxels of the level.
 Errors errors_at_centres(const Bricks& level, Sign sign, const test::ExactSurface& exact, int samples) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> unit;
@@ -55,12 +56,12 @@ Errors errors_at_centres(const Bricks& level, Sign sign, const test::ExactSurfac
 
 void expect_exact_distances(const LevelStack& field, Sign sign, const test::RealMesh& real) {
     const test::ExactSurface exact(real.mesh, real.triangles, real.frame);
-    // Each winding number takes all triangles.
+    // Each winding number visits all triangles.
     const int samples = static_cast<int>(std::min<std::size_t>(1000, 10'000'000 / real.triangles.size()));
     for (const Bricks& level : field.levels()) {
         const Errors e = errors_at_centres(level, sign, exact, samples);
-        SCOPED_TRACE(fmt::format("1/{:.0f}: mean {:.6f} max {:.6f} wrong {:.2f} % up to {:.2f}",
-                                 1 / level.voxel(), e.mean, e.largest, 100 * e.wrong_sign, e.deepest_wrong));
+        SCOPED_TRACE(fmt::format("1/{:.0f}: mean {:.6f} max {:.6f} wrong {:.2f} % up to {:.2f}", 1 / level.voxel(),
+                                 e.mean, e.largest, 100 * e.wrong_sign, e.deepest_wrong));
         EXPECT_LE(e.mean, 1e-4);
         EXPECT_LE(e.largest, 1e-3);
         EXPECT_LE(e.wrong_sign, 0.01);
@@ -87,16 +88,15 @@ TEST_P(SolidMesh, ValuesAtVoxelCentresAreSignedDistances) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Archive, SolidMesh,
-                         testing::Values("armadillo.off", "elephant.off", "fandisk.off", "knot1.off",
-                                         "rotor.off", "cube.off", "sphere.off", "anchor.off", "pinion.off",
-                                         "bull.off", "eight.off"));
+                         testing::Values("armadillo.off", "elephant.off", "fandisk.off", "knot1.off", "rotor.off",
+                                         "cube.off", "sphere.off", "anchor.off", "pinion.off", "bull.off",
+                                         "eight.off"));
 
-/// Closed meshes whose parts run into each other: inside of any of them is inside.
+/// Closed meshes with overlapping parts: the inside of any part is inside.
 INSTANTIATE_TEST_SUITE_P(Overlapping, SolidMesh,
-                         testing::Values("cow.off", "camel.off", "elk.off", "bones.off", "diplodocus.off",
-                                         "man.off"));
+                         testing::Values("cow.off", "camel.off", "elk.off", "bones.off", "diplodocus.off", "man.off"));
 
-/// As a sheet the distances are as exact, and what is negative is within half a voxel of a face.
+/// Distances of a sheet are as exact; the sign of its inside is checked up to half a voxel from a face.
 TEST(SheetMesh, DistancesAreExact) {
     const test::RealMesh real("ChineseDragon-10kv.off");
     expect_exact_distances(LevelStack(voxelize_at_128(real)), Sign::sheet, real);

@@ -1,10 +1,9 @@
-#include "alcove/grid/zero_surface.h"
+#include "alcove/grid/voxelize.h"
 
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/detail/vdb_grid.h"
-#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/vdb/vdb_file.h"
@@ -23,7 +22,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979;
 
-/// A sphere as another program would leave it, read as a stack.
+/// A sphere as another program would write it, read as a stack.
 GridStack foreign_sphere(double radius, const Vec3d& center, double voxel, float half_width,
                          const Vec3d& origin = Vec3d(0.0)) {
     openvdb::initialize();
@@ -76,8 +75,7 @@ TEST(MeshGrid, OneOfOurOwnStacksComesBackToItsPlace) {
     test::add_part(mesh, test::sphere_mesh(5), 37.0, {1e4, -2e3, 5.5});
     const GridOptions grid{.radius = 0.2f, .voxel = 1.0f / 64.0f};
     const GridStack stack = voxelize(mesh, triangulate(mesh).triangles, {.grid = grid});
-    expect_sphere(mesh_zero_surface(stack), 37.0, {1e4, -2e3, 5.5},
-                  stack.levels[0].voxel * stack.frame.diagonal);
+    expect_sphere(mesh_zero_surface(stack), 37.0, {1e4, -2e3, 5.5}, stack.levels[0].voxel * stack.frame.diagonal);
 }
 
 TEST(MeshGrid, AdaptivityMergesFacesOnTheSurface) {
@@ -151,7 +149,7 @@ TEST(MeshGrid, AStackThatKnowsTooLittleOfTheInsideIsReplacedWhereItIsAsked) {
         field.map(Points{&x, &y, &z, 1}, depth, &d);
         EXPECT_NEAR(d, -depth, 0.003f) << depth;
     }
-    // What is filled inside tells, in a file without our metadata, how far in it knows.
+    // Without our metadata, the fill value of the inside determines the inner band.
     EXPECT_TRUE(foreign_sphere(1.0, Vec3d(0.0), 0.05, 3.0f).knows_inside());
     EXPECT_EQ(extend_levels(whole, 0.2f, true).levels.front().grid, whole.levels.front().grid);
 }
@@ -161,8 +159,8 @@ TEST(MeshGrid, AStackInAnotherFrameIsTheSameSurface) {
     const Frame frame{{9, 22, -6}, 4.0};
     const LevelStack a(stack), b(reframed(stack, frame));
     for (const Vec3d& p : {Vec3d(10, 23, -5), Vec3d(13.2, 20, -5), Vec3d(10, 20, -1.9), Vec3d(7.1, 20, -5)})
-        EXPECT_NEAR(b.map(frame.to_unit(p)) * frame.diagonal,
-                    a.map(stack.frame.to_unit(p)) * stack.frame.diagonal, 1e-4);
+        EXPECT_NEAR(b.map(frame.to_unit(p)) * frame.diagonal, a.map(stack.frame.to_unit(p)) * stack.frame.diagonal,
+                    1e-4);
 }
 
 TEST(MeshOfASampler, LiesOnTheSurfaceAndTurnsOutward) {
@@ -179,8 +177,7 @@ TEST(MeshOfASampler, LiesOnTheSurfaceAndTurnsOutward) {
         EXPECT_NEAR(glm::length(p - Vec3d(center)), double(radius), 0.2 / 128.0);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto corners = mesh.face(f);
-        const Vec3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
-                    &c = mesh.positions[corners[2]];
+        const Vec3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]], &c = mesh.positions[corners[2]];
         EXPECT_GT(glm::dot(glm::cross(b - a, c - a), a - Vec3d(center)), 0.0);
     }
     EXPECT_TRUE(closedness(mesh).closed());

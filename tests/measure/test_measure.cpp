@@ -10,7 +10,7 @@
 namespace alcove {
 namespace {
 
-/// Two spheres side by side, nearly touching: 516 vertices, open but between them.
+/// Two spheres side by side, nearly touching: 516 vertices, open except between the spheres.
 Mesh two_spheres() {
     Mesh mesh = test::sphere_mesh(3);
     test::add_part(mesh, test::sphere_mesh(3), 1.0, {2.1, 0, 0});
@@ -72,7 +72,7 @@ TEST_F(Measuring, TakesTheTruthOfSomeForAll) {
     const Measurement all = measured("classic", 5);
     EXPECT_EQ(part.error.count, 64u);
     EXPECT_NEAR(part.error.rmse, all.error.rmse, 0.35 * all.error.rmse);
-    // A vertex has the same truth among others.
+    // The truth of a vertex does not depend on the other vertices.
     std::size_t at = 0;
     for (std::size_t i = 0; i < some.vertices.size(); ++i) {
         while (truth_.vertices[at] != some.vertices[i])

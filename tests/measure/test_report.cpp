@@ -7,8 +7,8 @@
 namespace alcove {
 namespace {
 
-Measurement made_up(const std::string& mesh, const std::string& method, int samples, double seconds,
-                    double rmse, float voxel = 0.0f, float radius = 0.1f) {
+Measurement made_up(const std::string& mesh, const std::string& method, int samples, double seconds, double rmse,
+                    float voxel = 0.0f, float radius = 0.1f) {
     Measurement m;
     m.mesh = mesh, m.method = method, m.samples = samples;
     m.occlusion_seconds = seconds;
@@ -47,7 +47,7 @@ TEST(Report, ListsTheBestFirstAndMarksTheFront) {
     EXPECT_EQ(count(page, "<tr class=\"front\"><td>exact:64"), 1u);
     EXPECT_EQ(count(page, "<tr class=\"front\"><td>classic:5"), 1u);
     EXPECT_EQ(count(page, "<tr class=\"front\"><td>decay:5"), 0u);
-    EXPECT_EQ(count(page, "<svg"), 2u); // all of the time, and occlusion alone
+    EXPECT_EQ(count(page, "<svg"), 2u); // total time, and occlusion only
 }
 
 TEST(Report, DrawsErrorAgainstVoxelRadiusAndAllMeshes) {

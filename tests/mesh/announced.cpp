@@ -23,7 +23,7 @@ std::string with_plain_line_ends(std::string text) {
     return text;
 }
 
-/// A blank in place of each `beginning` and what follows it on its line.
+/// Replaces each `beginning` and the rest of its line by a blank.
 std::string without_rests_of_lines(const std::string& text, std::string_view beginning) {
     std::string result;
     std::size_t at = 0;
@@ -49,8 +49,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 Announced by_ply(const std::string& bytes) {
     Announced result;
-    for (const std::string& line :
-         lines_of(with_plain_line_ends(bytes.substr(0, bytes.find("end_header"))))) {
+    for (const std::string& line : lines_of(with_plain_line_ends(bytes.substr(0, bytes.find("end_header"))))) {
         const std::vector<std::string> words = words_of(line);
         if (words.size() == 3 && words[0] == "element" && words[1] == "vertex")
             result.vertices = std::stoull(words[2]);
@@ -102,7 +101,7 @@ Announced by_stl(const std::string& bytes) {
     std::string text = bytes;
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    // What follows solid and endsolid is a name.
+    // A name follows solid and endsolid.
     text = without_rests_of_lines(with_plain_line_ends(text), "solid");
     const std::vector<std::string> words = words_of(text);
     const auto count = [&](const char* word) {

@@ -1,4 +1,4 @@
-/// What a file says that it holds, found without the readers.
+/// The counts that a file declares, determined independently of the readers.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,6 @@ struct Announced {
     bool operator==(const Announced&) const = default;
 };
 
-/// Of a file that was read: the counts of PLY, OFF and binary STL, the lines of OBJ, the facets of an STL text and, as the
-/// vertices of STL, its corners.
+/// The counts of a file that can be read: the declared ones of PLY, OFF and binary STL, the numbers of lines of
+/// OBJ, and of the facets of an STL text. The vertices of STL are its corners.
 Announced announced_by(const std::string& bytes, std::string_view format);

@@ -23,7 +23,7 @@ const std::vector<std::string>& extreme_words() {
     return words;
 }
 
-/// Little endian and big endian.
+/// In little and big endian.
 const std::vector<std::string>& extreme_numbers() {
     static const std::vector<std::string> numbers = [] {
         const float infinity = std::numeric_limits<float>::infinity();
@@ -54,7 +54,7 @@ bool is_text(const std::string& bytes) {
     return std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= ' ' || c == '\n' || c == '\r'; });
 }
 
-/// Where the header of a binary file, or the whole text, ends.
+/// The end of the header of a binary file, or of the whole text.
 std::size_t end_of_text(const std::string& bytes) {
     if (is_text(bytes))
         return bytes.size();
@@ -65,32 +65,32 @@ std::size_t end_of_text(const std::string& bytes) {
     return 0;
 }
 
-using Tell = std::function<void(const char*, const std::string&)>;
+using Visit = std::function<void(const char*, const std::string&)>;
 
-void damage_bytes(const std::string& sound, const Tell& tell) {
+void damage_bytes(const std::string& sound, const Visit& visit) {
     for (std::size_t length = 0; length < sound.size(); ++length)
-        tell("cut", sound.substr(0, length));
+        visit("cut", sound.substr(0, length));
     for (std::size_t at = 0; at < sound.size(); ++at) {
         std::string bytes = sound;
         bytes[at] = '\0';
-        tell("NUL instead", bytes);
-        tell("NUL between", std::string(sound).insert(at, 1, '\0'));
+        visit("byte replaced by NUL", bytes);
+        visit("NUL inserted", std::string(sound).insert(at, 1, '\0'));
     }
-    tell("bytes behind", sound + "more");
-    tell("twice", sound + sound);
+    visit("bytes appended", sound + "more");
+    visit("doubled", sound + sound);
 }
 
-void damage_lines(const std::string& sound, const Tell& tell) {
+void damage_lines(const std::string& sound, const Visit& visit) {
     const std::size_t end_of_lines = end_of_text(sound);
     for (std::size_t begin = 0; begin < end_of_lines;) {
         const std::size_t end = std::min(sound.find('\n', begin), end_of_lines - 1) + 1;
         const std::string line = sound.substr(begin, end - begin);
-        tell("line deleted", std::string(sound).erase(begin, line.size()));
-        tell("line doubled", std::string(sound).insert(begin, line));
+        visit("line deleted", std::string(sound).erase(begin, line.size()));
+        visit("line doubled", std::string(sound).insert(begin, line));
         constexpr std::size_t huge = 100000;
         for (const char filling : {' ', 'x', '0', '#', '\\'}) {
-            tell("huge line", std::string(sound).insert(begin, huge, filling));
-            tell("huge end of a line", std::string(sound).insert(end - 1, huge, filling));
+            visit("huge line", std::string(sound).insert(begin, huge, filling));
+            visit("huge end of a line", std::string(sound).insert(end - 1, huge, filling));
         }
         begin = end;
     }
@@ -103,11 +103,11 @@ void damage_lines(const std::string& sound, const Tell& tell) {
                     bytes += line_end;
                 else
                     bytes += sound[at];
-            tell("line ends mixed", bytes);
+            visit("line ends mixed", bytes);
         }
 }
 
-void damage_words(const std::string& sound, const Tell& tell) {
+void damage_words(const std::string& sound, const Visit& visit) {
     const std::size_t end_of_words = end_of_text(sound);
     for (std::size_t end = 0;;) {
         const std::size_t begin = sound.find_first_not_of(blanks, end);
@@ -115,33 +115,32 @@ void damage_words(const std::string& sound, const Tell& tell) {
             return;
         end = std::min(sound.find_first_of(blanks, begin), sound.size());
         for (const std::string& word : extreme_words())
-            tell("word replaced", std::string(sound).replace(begin, end - begin, word));
-        tell("word doubled", std::string(sound).insert(begin, sound.substr(begin, end - begin) + " "));
+            visit("word replaced", std::string(sound).replace(begin, end - begin, word));
+        visit("word doubled", std::string(sound).insert(begin, sound.substr(begin, end - begin) + " "));
     }
 }
 
-void damage_numbers(const std::string& sound, const Tell& tell) {
+void damage_numbers(const std::string& sound, const Visit& visit) {
     const std::size_t begin = end_of_text(sound);
     for (std::size_t at = begin; at < sound.size(); ++at) {
         for (const std::string& number : extreme_numbers())
             if (number.size() <= sound.size() - at)
-                tell("number replaced", std::string(sound).replace(at, number.size(), number));
-        std::string turned = sound;
-        std::reverse(turned.begin() + static_cast<std::ptrdiff_t>(at),
-                     turned.begin() + static_cast<std::ptrdiff_t>(std::min(at + 4, sound.size())));
-        tell("number turned around", turned);
+                visit("number replaced", std::string(sound).replace(at, number.size(), number));
+        std::string reversed = sound;
+        std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(at),
+                     reversed.begin() + static_cast<std::ptrdiff_t>(std::min(at + 4, sound.size())));
+        visit("number reversed", reversed);
     }
-    for (const auto& [from, to] :
-         {std::pair("binary_little", "binary_big"), std::pair("binary_big", "binary_little"),
-          std::pair("binary_little_endian", "ascii"), std::pair("ascii", "binary_big_endian"),
-          std::pair("OFF BINARY", "OFF"), std::pair("OFF\n", "OFF BINARY\n")})
+    for (const auto& [from, to] : {std::pair("binary_little", "binary_big"), std::pair("binary_big", "binary_little"),
+                                   std::pair("binary_little_endian", "ascii"), std::pair("ascii", "binary_big_endian"),
+                                   std::pair("OFF BINARY", "OFF"), std::pair("OFF\n", "OFF BINARY\n")})
         if (const std::size_t at = sound.find(from); at != std::string::npos)
-            tell("of another encoding", std::string(sound).replace(at, std::strlen(from), to));
+            visit("encoding changed", std::string(sound).replace(at, std::strlen(from), to));
 }
 
 }
 
-void for_each_damage(const std::string& sound, const Tell& f) {
+void for_each_damage(const std::string& sound, const Visit& f) {
     damage_bytes(sound, f);
     damage_lines(sound, f);
     damage_words(sound, f);

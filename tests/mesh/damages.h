@@ -1,10 +1,11 @@
-/// Every small file with one thing wrong, for each thing that can be.
+/// Generates files with one systematic damage each.
 #pragma once
 
 #include <functional>
 #include <string>
 
-/// Calls f(what is wrong, bytes) for a file cut at each byte; with each byte NUL; with each line deleted, doubled, made
-/// huge; with other line ends; with each word made extreme, in a text or the header of a binary file; with the bytes of
-/// each number, wherever one might begin, made extreme or turned around.
+/// Calls f(description, bytes) for the file truncated at each byte; with each byte set to NUL; with each line
+/// deleted, duplicated or made huge; with other line ends; with each word of a text, or of the header of a binary
+/// file, replaced by an extreme one; and with the bytes of a number, at every offset, replaced by extreme ones or
+/// reversed.
 void for_each_damage(const std::string& sound, const std::function<void(const char*, const std::string&)>& f);

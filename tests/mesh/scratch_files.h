@@ -1,4 +1,4 @@
-/// A folder of its own for each test, removed at its end, and bytes in and out of files in it.
+/// A temporary folder for each test, removed at its end, with helpers to write and read files in it.
 #pragma once
 
 #include "alcove/mesh/read.h"
@@ -38,7 +38,7 @@ class ScratchFiles : public testing::Test {
     alcove::Mesh read(const std::string& name, std::string_view bytes) const {
         return alcove::read_mesh(write(name, bytes));
     }
-    /// What stands behind the header of a PLY file.
+    /// The contents after the header of a PLY file.
     std::string rows_of(const std::string& name) const {
         const std::string bytes = bytes_of(name);
         const std::size_t end = bytes.find("end_header\n");
@@ -52,7 +52,7 @@ class ScratchFiles : public testing::Test {
     std::filesystem::path folder_;
 };
 
-/// The bytes of values in this machine's order (little endian), one after another.
+/// The concatenated bytes of values in the order of this machine (little endian).
 template <class... T>
 std::string packed(T... values) {
     std::string bytes;
@@ -60,7 +60,7 @@ std::string packed(T... values) {
     return bytes;
 }
 
-/// The same, the bytes of each value reversed.
+/// The same with the bytes of each value reversed.
 template <class... T>
 std::string packed_reversed(T... values) {
     std::string bytes;

@@ -1,4 +1,4 @@
-/// Small meshes made in code, and ways to change them.
+/// Builds and modifies small meshes.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -11,13 +11,13 @@ namespace alcove {
 
 using Face = std::vector<std::uint32_t>;
 
-/// A cube of quads, faces outward, its corners at `low` + {0, size}.
+/// A cube of quads, faces outward, with corners at `low` + {0, size}.
 inline Mesh cube(const Vec3d& low = Vec3d(0.0), double size = 1.0) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < 8; ++i)
         mesh.positions.push_back(low + size * Vec3d(i & 1, (i >> 1) & 1, i >> 2));
-    for (const Face& face : {Face{0, 2, 3, 1}, Face{4, 5, 7, 6}, Face{0, 1, 5, 4}, Face{2, 6, 7, 3},
-                             Face{0, 4, 6, 2}, Face{1, 3, 7, 5}})
+    for (const Face& face :
+         {Face{0, 2, 3, 1}, Face{4, 5, 7, 6}, Face{0, 1, 5, 4}, Face{2, 6, 7, 3}, Face{0, 4, 6, 2}, Face{1, 3, 7, 5}})
         mesh.add_face(face);
     return mesh;
 }
@@ -64,7 +64,7 @@ inline Mesh together(const Mesh& a, const Mesh& b) {
     return with_faces(both, faces);
 }
 
-/// Every face with vertices of its own.
+/// A copy in which no faces share vertices.
 inline Mesh split(const Mesh& mesh) {
     Mesh result;
     for (Face face : faces_of(mesh)) {
@@ -77,7 +77,7 @@ inline Mesh split(const Mesh& mesh) {
     return result;
 }
 
-/// Quads around a torus of m × n vertices.
+/// A torus of m × n vertices and quads.
 inline Mesh torus(std::uint32_t m, std::uint32_t n) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < m; ++i)

@@ -43,7 +43,7 @@ TEST(Clip, ALargeTriangleIsCutToTheBox) {
     EXPECT_EQ(box.max, Vec3d(3, 0, 1));
 }
 
-/// Whatever is cut from a box of any place: the areas of all cells of a division add up to the whole.
+/// The areas of the eight clipped octants around any point add up to the whole.
 TEST(Clip, NothingIsLostBetweenBoxes) {
     const Mesh solid = torus(9, 7);
     std::mt19937 random(1);
@@ -58,14 +58,13 @@ TEST(Clip, NothingIsLostBetweenBoxes) {
             const Mesh part = clipped(solid, box);
             sum += area(part);
             for (const Vec3d& p : part.positions)
-                EXPECT_TRUE(glm::all(glm::lessThanEqual(p, box.max)) &&
-                            glm::all(glm::greaterThanEqual(p, box.min)));
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(p, box.max)) && glm::all(glm::greaterThanEqual(p, box.min)));
         }
         EXPECT_NEAR(sum, area(solid), 1e-9);
     }
 }
 
-/// Open only at the sides of the box: neighbours cut a common edge at one point.
+/// The result is open only at the sides of the box, as neighbours cut a common edge at the same point.
 TEST(Clip, TheRimOfACutLiesOnTheBox) {
     const Mesh cut = clipped(torus(24, 16), {{-10, -10, -10}, {1.234, 0.777, 10}});
     const Diagnosis diagnosis = diagnose(cut);

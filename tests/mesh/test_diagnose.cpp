@@ -43,7 +43,7 @@ TEST(Diagnose, MissingFaceIsOneHole) {
     EXPECT_EQ(d.boundary_loops, 1u);
     EXPECT_EQ(d.closed_components, 0u);
     EXPECT_EQ(d.signed_volume, 0.0);
-    faces.erase(faces.begin() + 4); // the opposite one: a tube has two rims
+    faces.erase(faces.begin() + 4); // the opposite one: a tube has two boundary loops
     EXPECT_EQ(diagnose(with_faces(cube(), faces)).boundary_loops, 2u);
     EXPECT_EQ(euler(diagnose(with_faces(cube(), faces))), 0);
 }
@@ -68,7 +68,7 @@ TEST(Diagnose, CubesThatShareAVertexTouchInAPoint) {
 }
 
 TEST(Diagnose, AWallBetweenTwoCubesLeavesNoConsistentSide) {
-    // Two cubes with one common face: three faces meet along its four edges.
+    // Two cubes with a common face: three faces meet at each of its four edges.
     Mesh mesh = together(cube(), cube({1, 0, 0}));
     std::vector<Face> faces = faces_of(mesh);
     faces.erase(faces.begin() + 10);
@@ -156,9 +156,9 @@ TEST(Diagnose, BrokenFacesAreCounted) {
     Mesh mesh = cube();
     mesh.positions.insert(mesh.positions.end(), {{9, 9, 9}, {NAN, 0, 0}, {0, -INFINITY, 0}, {0.5, 0, 0}});
     for (const Face& face : {Face{2, 3, 1, 0},          // the first face again
-                             Face{1, 3, 2, 0},          // and from behind
-                             Face{0, 1}, Face{0, 1, 1}, // no three corners
-                             Face{0, 11, 1},            // on a line
+                             Face{1, 3, 2, 0},          // and reversed
+                             Face{0, 1}, Face{0, 1, 1}, // fewer than three corners
+                             Face{0, 11, 1},            // collinear
                              Face{0, 1, 9}, Face{0, 1, 2, 10}})
         mesh.add_face(face);
     const Diagnosis d = diagnose(mesh);
@@ -167,7 +167,7 @@ TEST(Diagnose, BrokenFacesAreCounted) {
     EXPECT_EQ(d.non_finite_vertices, 2u);
     EXPECT_EQ(d.unreferenced_vertices, 1u);
     EXPECT_EQ(d.coincident_vertices, 0u);
-    EXPECT_EQ(d.non_manifold_edges, 4u); // around the face that is there three times
+    EXPECT_EQ(d.non_manifold_edges, 4u); // around the tripled face
     EXPECT_EQ(d.open_edges, 2u);         // from 0 to 11 and from 11 to 1
 }
 

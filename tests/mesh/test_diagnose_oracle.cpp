@@ -14,7 +14,7 @@
 namespace alcove {
 namespace {
 
-/// Components of `count` things, where `linked` says which two belong together.
+/// The number of connected components of `count` items, where `linked` tests whether two are connected.
 std::size_t count_groups(std::size_t count, const std::function<bool(std::size_t, std::size_t)>& linked) {
     std::vector<bool> seen(count, false);
     std::size_t groups = 0;
@@ -37,7 +37,7 @@ std::size_t count_groups(std::size_t count, const std::function<bool(std::size_t
     return groups;
 }
 
-/// The counts of edges, vertices and faces, from their definitions by comparing all with all.
+/// Counts edges, vertices and faces by their definitions, comparing all with all.
 struct SlowDiagnosis {
     std::size_t edges = 0, open = 0, non_manifold = 0, flipped = 0, odd = 0, unbalanced = 0, components = 0;
     std::size_t non_manifold_vertices = 0, duplicates = 0, collapsed = 0;
@@ -95,22 +95,19 @@ struct SlowDiagnosis {
                     return true;
             return false;
         };
-        components = count_groups(faces.size(), [&](std::size_t f, std::size_t g) {
-            return shares(f, g, [](Edge) { return true; });
-        });
-        // Corners of a vertex are in one fan when they share an edge at it.
+        components = count_groups(
+            faces.size(), [&](std::size_t f, std::size_t g) { return shares(f, g, [](Edge) { return true; }); });
+        // Corners of a vertex are in the same fan if they share an edge at it.
         for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
             std::vector<std::pair<std::uint32_t, std::uint32_t>> ends; // the neighbours of each corner at v
             for (const Face& face : faces)
                 for (std::size_t i = 0; i < face.size(); ++i)
                     if (face[i] == v)
-                        ends.emplace_back(face[(i + face.size() - 1) % face.size()],
-                                          face[(i + 1) % face.size()]);
-            non_manifold_vertices +=
-                count_groups(ends.size(), [&](std::size_t i, std::size_t j) {
-                    return ends[i].first == ends[j].first || ends[i].first == ends[j].second ||
-                           ends[i].second == ends[j].first || ends[i].second == ends[j].second;
-                }) > 1;
+                        ends.emplace_back(face[(i + face.size() - 1) % face.size()], face[(i + 1) % face.size()]);
+            non_manifold_vertices += count_groups(ends.size(), [&](std::size_t i, std::size_t j) {
+                                         return ends[i].first == ends[j].first || ends[i].first == ends[j].second ||
+                                                ends[i].second == ends[j].first || ends[i].second == ends[j].second;
+                                     }) > 1;
         }
         std::map<std::multiset<std::uint32_t>, std::size_t> sets;
         for (const Face& face : faces)
@@ -118,16 +115,14 @@ struct SlowDiagnosis {
     }
 };
 
-/// Few vertices, so that edges are shared by many; some at one place, one not finite; faces of 0 to 5
-/// corners.
+/// Few vertices, so that many faces share an edge; some coincide and one may not be finite; faces of 0 to 5 corners.
 Mesh random_soup(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     Mesh mesh;
     const std::size_t vertices = 4 + random() % 9;
     for (std::size_t v = 0; v < vertices; ++v)
-        mesh.positions.push_back(v > 0 && random() % 5 == 0
-                                     ? mesh.positions[random() % v]
-                                     : Vec3d(unit(random), unit(random), unit(random)));
+        mesh.positions.push_back(v > 0 && random() % 5 == 0 ? mesh.positions[random() % v]
+                                                            : Vec3d(unit(random), unit(random), unit(random)));
     if (random() % 4 == 0)
         mesh.positions[random() % vertices].y = NAN;
     for (std::size_t f = random() % 14; f > 0; --f) {
@@ -250,7 +245,7 @@ TEST(DiagnoseOracle, HolesAndTouchingFansAgreeWithOpenMesh) {
         EXPECT_EQ(d.open_edges, boundary);
         EXPECT_EQ(d.unreferenced_vertices, isolated);
         EXPECT_EQ(d.non_manifold_vertices, touching);
-        // Where fans touch, which rim follows which is a matter of convention.
+        // Where fans touch, the order of the boundary edges is a matter of convention.
         if (touching == 0) {
             EXPECT_EQ(d.boundary_loops, loops);
             ++compared;

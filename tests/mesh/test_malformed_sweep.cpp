@@ -28,10 +28,10 @@ bool warns(const Mesh& mesh, std::size_t count, std::string_view words) {
     });
 }
 
-/// What is read is all that the file says it holds, and what of it is of no use is counted.
+/// The mesh has everything that the file declares, and warnings count what is invalid.
 void check_read(const Mesh& mesh, const std::string& bytes) {
     const Announced announced = announced_by(bytes, mesh.format);
-    // Equal corners of STL become one vertex.
+    // Reading joins equal corners of STL.
     const std::size_t vertices = mesh.format == "STL" ? mesh.corners.size() : mesh.vertex_count();
     EXPECT_EQ(vertices, announced.vertices);
     EXPECT_EQ(mesh.face_count(), announced.faces);
@@ -40,8 +40,7 @@ void check_read(const Mesh& mesh, const std::string& bytes) {
                             [&](std::uint32_t corner) { return corner < mesh.vertex_count(); }));
     const auto finite =
         static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(), is_finite));
-    EXPECT_TRUE(finite == mesh.vertex_count() ||
-                warns(mesh, mesh.vertex_count() - finite, "not finite numbers"));
+    EXPECT_TRUE(finite == mesh.vertex_count() || warns(mesh, mesh.vertex_count() - finite, "not finite numbers"));
 }
 
 class MalformedSweep : public testing::TestWithParam<const char*> {};

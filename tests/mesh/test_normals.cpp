@@ -32,7 +32,7 @@ Mesh random_soup(std::mt19937& random, std::size_t vertices, std::size_t faces) 
     return mesh;
 }
 
-/// Vertex by vertex over all triangles, in extended precision and scene units.
+/// Sums over all triangles for each vertex, in extended precision and scene units.
 std::vector<Vec3d> slow_normals(const Mesh& mesh, const std::vector<Triangle>& triangles) {
     using Long = glm::vec<3, long double>;
     std::vector<Vec3d> normals;

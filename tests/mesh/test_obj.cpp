@@ -45,7 +45,7 @@ TEST_F(Obj, ReadsPolygonsNegativeIndicesAndContinuedLines) {
     EXPECT_EQ(mesh.positions[3], Vec3d(0, 1, 0));
     EXPECT_EQ(mesh.face_begin, (std::vector<std::uint32_t>{0, 4, 7}));
     EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 3, 0, 1, 2}));
-    EXPECT_TRUE(mesh.vertex_uvs.empty()); // a 'vt' no corner names
+    EXPECT_TRUE(mesh.vertex_uvs.empty()); // no corner refers to a 'vt'
     EXPECT_EQ(mesh.vertex_colors[1], (Color{26, 51, 77, 255}));
     EXPECT_EQ(mesh.vertex_colors[0], (Color{255, 255, 255, 255}));
     ASSERT_EQ(mesh.warnings.size(), 1u);
@@ -62,14 +62,15 @@ TEST_F(Obj, WithoutColoursTheTextIsWrittenAsItWas) {
 }
 
 TEST_F(Obj, ColoursChangeTheVertexLinesOnly) {
-    const Mesh mesh = read("scene.obj", scene);
+    Mesh mesh = read("scene.obj", scene);
     const std::vector<Color> colors{
         {0, 0, 0, 255}, {255, 128, 1, 255}, {9, 9, 9, 255}, {2, 3, 4, 255}, {255, 254, 253, 255}};
-    EXPECT_TRUE(write_mesh(mesh, path("out.obj"), {.colors = colors, .comments = {"not in here"}}).empty());
+    mesh.added_colors = colors;
+    mesh.added_comments = {"not in here"};
+    EXPECT_TRUE(write_mesh(mesh, path("out.obj")).empty());
     const std::string text = bytes_of("out.obj");
     EXPECT_EQ(without_vertex_lines(text), without_vertex_lines(scene));
-    EXPECT_NE(text.find("v  0.0 0 -0.50000000000000001 0.0000 0.0000 0.0000\t\r\n"), std::string::npos)
-        << text;
+    EXPECT_NE(text.find("v  0.0 0 -0.50000000000000001 0.0000 0.0000 0.0000\t\r\n"), std::string::npos) << text;
     EXPECT_NE(text.find("v 1 0 0 1.0000 0.5020 0.0039\r\n"), std::string::npos) << text;
     EXPECT_NE(text.find("v 0 \\\r\n 1 +0.0 0.0078 0.0118 0.0157\r\n"), std::string::npos) << text;
     EXPECT_NE(text.find(" # corner\r\n"), std::string::npos) << text;
@@ -88,25 +89,25 @@ TEST_F(Obj, EveryColourByteSurvives) {
         colors.push_back({c, std::uint8_t(255 - i), c, 255});
     }
     mesh.add_face(std::vector<std::uint32_t>{0, 1, 2});
-    write_mesh(mesh, path("out.obj"), {.colors = colors, .comments = {}});
+    mesh.added_colors = colors;
+    write_mesh(mesh, path("out.obj"));
     EXPECT_EQ(read_mesh(path("out.obj")).vertex_colors, colors);
 }
 
 TEST_F(Obj, WeightsGiveWayToColoursAndAreTold) {
-    const Mesh mesh = read("in.obj", "v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0 2\nf 1 2 3\n");
+    Mesh mesh = read("in.obj", "v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0 2\nf 1 2 3\n");
     EXPECT_TRUE(mesh.vertex_colors.empty());
     EXPECT_TRUE(write_mesh(mesh, path("same.obj")).empty());
     EXPECT_EQ(bytes_of("same.obj"), bytes_of("in.obj"));
-    const auto lost = write_mesh(mesh, path("out.obj"),
-                                 {.colors = std::vector<Color>(3, Color{0, 0, 0, 255}), .comments = {}});
+    mesh.added_colors.assign(3, Color{0, 0, 0, 255});
+    const auto lost = write_mesh(mesh, path("out.obj"));
     ASSERT_EQ(lost.size(), 1u);
     EXPECT_NE(lost[0].find("the weights of 2 vertices"), std::string::npos) << lost[0];
     EXPECT_EQ(bytes_of("out.obj").find("0.5"), std::string::npos);
 }
 
 TEST_F(Obj, TextureCoordinatesAreKeptPerVertexWhereTheyAgreeElsePerCorner) {
-    const std::string vertices =
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 0 1\n";
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 0 1\n";
     const Mesh agreeing = read("a.obj", vertices + "f 1/1 2/2 3/3\nf 2/-4 4/4 3/5\n");
     EXPECT_EQ(agreeing.vertex_uvs, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
     EXPECT_TRUE(agreeing.corner_uvs.empty());
@@ -120,22 +121,19 @@ TEST_F(Obj, TextureCoordinatesAreKeptPerVertexWhereTheyAgreeElsePerCorner) {
 }
 
 TEST_F(Obj, NormalsOfOneVertexAreSummedOnceEach) {
-    // Vertex 1 is met by the normal z three times and by x once: their sum lies halfway between.
-    const Mesh mesh =
-        read("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 4\nvn 2 0 0\nvn 0 0 1\n"
-                       "f 1//1 2//1 3//1\nf 1//3 2//1 3//1\nf 1//1 3//1 2//1\nf 1//2 3//-3 4//2\n");
+    // Vertex 1 has the normal z three times and x once; the sum of the distinct ones is halfway between them.
+    const Mesh mesh = read("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 4\nvn 2 0 0\nvn 0 0 1\n"
+                                     "f 1//1 2//1 3//1\nf 1//3 2//1 3//1\nf 1//1 3//1 2//1\nf 1//2 3//-3 4//2\n");
     const float half = std::sqrt(0.5f);
     EXPECT_NEAR(glm::length(mesh.normals[0] - Vec3(half, 0, half)), 0.0f, 1e-6f);
     EXPECT_EQ(mesh.normals[1], Vec3(0, 0, 1));
     EXPECT_EQ(mesh.normals[3], Vec3(1, 0, 0));
     ASSERT_EQ(mesh.warnings.size(), 1u);
-    EXPECT_NE(mesh.warnings[0].find("1 vertex has more than one normal"), std::string::npos)
-        << mesh.warnings[0];
+    EXPECT_NE(mesh.warnings[0].find("1 vertex has more than one normal"), std::string::npos) << mesh.warnings[0];
 }
 
 TEST_F(Obj, FacesMayComeBeforeTheirVertices) {
-    EXPECT_EQ(read("in.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").corners,
-              (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(read("in.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").corners, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
 TEST_F(Obj, ToPlyKeepsTheMeshAndTellsTheRest) {
@@ -160,7 +158,8 @@ TEST_F(Obj, APlyBecomesAnObjWithEverythingItCanHold) {
     mesh.add_face(std::vector<std::uint32_t>{0, 1, 2, 3});
     mesh.add_face(std::vector<std::uint32_t>{2, 1, 0});
     mesh.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {.5f, .25f}, {0, 0}, {1, 1}};
-    write_mesh(mesh, path("out.obj"), {.colors = {}, .comments = {"one\ntwo"}});
+    mesh.added_comments = {"one\ntwo"};
+    write_mesh(mesh, path("out.obj"));
     EXPECT_TRUE(bytes_of("out.obj").starts_with("# one two\nv 0 0 0.1\n"));
     const Mesh again = read_mesh(path("out.obj"));
     EXPECT_EQ(again.corner_uvs, mesh.corner_uvs);
@@ -177,11 +176,11 @@ TEST_F(Obj, APlyBecomesAnObjWithEverythingItCanHold) {
 }
 
 TEST_F(Obj, WhatAPlyHoldsBeyondAnObjIsTold) {
-    Mesh mesh = read(
-        "in.ply", "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty float y\n"
-                  "property float z\nproperty float quality\nelement face 1\n"
-                  "property list uchar int vertex_indices\nproperty int patch\nelement light 1\n"
-                  "property int on\nend_header\n0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2 5\n1\n");
+    Mesh mesh =
+        read("in.ply", "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty float y\n"
+                       "property float z\nproperty float quality\nelement face 1\n"
+                       "property list uchar int vertex_indices\nproperty int patch\nelement light 1\n"
+                       "property int on\nend_header\n0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2 5\n1\n");
     mesh.set_attribute({"ao", 1, {1, 1, 1}});
     std::string lost;
     for (const std::string& line : write_mesh(mesh, path("out.obj")))
@@ -194,7 +193,7 @@ TEST_F(Obj, LinesOfUnknownKeywordsAreKeptAndCounted) {
     const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nzz top\nzz 3\nf 1 2 3\n";
     const Mesh mesh = read("in.obj", text);
     ASSERT_EQ(mesh.warnings.size(), 1u);
-    EXPECT_NE(mesh.warnings[0].find("2 lines begin with no OBJ keyword, the first with 'zz'"),
+    EXPECT_NE(mesh.warnings[0].find("2 lines do not begin with an OBJ keyword, the first with 'zz'"),
               std::string::npos);
     write_mesh(mesh, path("out.obj"));
     EXPECT_EQ(bytes_of("out.obj"), text);

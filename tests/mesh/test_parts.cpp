@@ -27,7 +27,7 @@ TEST(Parts, SolidsApartAreParts) {
 
 TEST(Parts, SeamsDoNotPartButPointsThatTouchDo) {
     EXPECT_EQ(split_parts(split(cube())).size(), 1u);
-    // Two cubes that share a corner, by index or only in place, share no edge.
+    // Two cubes that share only a corner, by index or by position, share no edge.
     const Mesh touching = together(cube(), cube(Vec3d(1.0)));
     EXPECT_EQ(split_parts(touching).size(), 2u);
     std::vector<Face> faces = faces_of(touching);

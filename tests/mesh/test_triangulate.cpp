@@ -51,8 +51,8 @@ Mesh polygon_mesh(const std::vector<Vec2d>& outline, const Plane& plane) {
     return mesh;
 }
 
-/// Signed areas in units of `scale` squared: all of one sign and adding up to the polygon's, they cover it
-/// exactly.
+/// Checks that the triangles cover the polygon exactly: their signed areas, in units of `scale` squared, have the
+/// same sign and add up to that of the polygon.
 void expect_cover(const std::vector<Vec2d>& outline, const Plane& plane, double tolerance) {
     const Mesh mesh = polygon_mesh(outline, plane);
     const Triangulation cut = triangulate(mesh);
@@ -75,8 +75,8 @@ std::vector<Vec2d> random_star(std::mt19937& random, std::size_t corners) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     std::vector<Vec2d> outline;
     for (std::size_t i = 0; i < corners; ++i) {
-        const double angle = 2 * std::numbers::pi * (static_cast<double>(i) + 0.8 * unit(random)) /
-                             static_cast<double>(corners);
+        const double angle =
+            2 * std::numbers::pi * (static_cast<double>(i) + 0.8 * unit(random)) / static_cast<double>(corners);
         outline.push_back((0.1 + unit(random)) * Vec2d(std::cos(angle), std::sin(angle)));
     }
     return outline;
@@ -143,9 +143,8 @@ TEST(Triangulate, CoversStaircasesAndOutlinesWithCollinearCorners) {
 }
 
 TEST(Triangulate, CoversAPlateWhoseHoleIsReachedByABridge) {
-    // The bridge runs twice between (0,0) and (1,1), with corners of their own, as exporters write it.
-    const std::vector<Vec2d> outline{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0},
-                                     {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
+    // The bridge runs twice between (0,0) and (1,1), with duplicate corners, as exporters write it.
+    const std::vector<Vec2d> outline{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
     expect_cover(outline, Plane{Vec3d(0.0), {1, 0, 0}, {0, 1, 0}}, 1e-12);
 }
 
@@ -175,8 +174,7 @@ TEST(Triangulate, ConcaveQuadIsCutAtItsReflexCorner) {
 }
 
 TEST(Triangulate, BentPolygonKeepsItsBoundaryAndItsSense) {
-    // A saddle: no plane holds it. Every outline edge must be used once in its direction, every cut both
-    // ways.
+    // A saddle, which is not planar. Each outline edge must be used once in its direction, each cut in both.
     Mesh mesh;
     std::vector<std::uint32_t> face;
     for (std::uint32_t i = 0; i < 12; ++i) {

@@ -11,8 +11,7 @@ namespace {
 
 TEST(Weld, NamesTheFirstVertexOfEachPlace) {
     std::mt19937 random(9);
-    std::vector<Vec3d> positions{
-        {0.0, -0.0, 0.0}, {-0.0, 0.0, 0.0}, {NAN, 0, 0}, {NAN, 0, 0}, {INFINITY, 1, 2}};
+    std::vector<Vec3d> positions{{0.0, -0.0, 0.0}, {-0.0, 0.0, 0.0}, {NAN, 0, 0}, {NAN, 0, 0}, {INFINITY, 1, 2}};
     for (int i = 0; i < 400; ++i)
         positions.push_back(1e-9 * Vec3d(random() % 5, random() % 5, random() % 5));
     const auto joined = weld(positions);

@@ -30,7 +30,7 @@ std::string message_of(const Mesh& mesh, const std::filesystem::path& file) {
     return "nothing was thrown";
 }
 
-/// Files may grow to so many bytes while this lives: what a full disk does to a write.
+/// Limits the size of files while it exists, to simulate a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) {
@@ -69,10 +69,8 @@ TEST_F(Write, OtherExtensionsAreRefusedByName) {
 TEST_F(Write, AFolderAndAMissingFolderAreNamed) {
     std::filesystem::create_directory(path("folder.ply"));
     EXPECT_NE(message_of<IoError>(triangle(), path("folder.ply")).find("is a folder"), std::string::npos);
-    EXPECT_NE(message_of<IoError>(triangle(), path("no/such/out.ply")).find("No such file"),
-              std::string::npos);
-    EXPECT_NE(message_of<IoError>(triangle(), "/dev/null/out.ply").find("Not a directory"),
-              std::string::npos);
+    EXPECT_NE(message_of<IoError>(triangle(), path("no/such/out.ply")).find("No such file"), std::string::npos);
+    EXPECT_NE(message_of<IoError>(triangle(), "/dev/null/out.ply").find("Not a directory"), std::string::npos);
     std::filesystem::create_symlink("/dev/null", path("null.ply"));
     EXPECT_NE(message_of<IoError>(triangle(), path("null.ply")).find("is a device"), std::string::npos);
 }
@@ -83,8 +81,7 @@ TEST_F(Write, AnUnwritableFolderIsNamed) {
     std::filesystem::create_directory(path("locked"));
     std::filesystem::permissions(path("locked"),
                                  std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-    EXPECT_NE(message_of<IoError>(triangle(), path("locked/out.ply")).find("Permission denied"),
-              std::string::npos);
+    EXPECT_NE(message_of<IoError>(triangle(), path("locked/out.ply")).find("Permission denied"), std::string::npos);
     std::filesystem::permissions(path("locked"), std::filesystem::perms::owner_all);
 }
 
@@ -94,8 +91,7 @@ TEST_F(Write, AFullDiskLeavesTheOldFileAndNoOther) {
     for (const char* name : {"out.ply", "out.obj"}) {
         write(name, "the old file");
         const FileSizeLimit limit(4096);
-        EXPECT_NE(message_of<IoError>(mesh, path(name)).find("cannot be written: File too large"),
-                  std::string::npos);
+        EXPECT_NE(message_of<IoError>(mesh, path(name)).find("cannot be written: File too large"), std::string::npos);
         EXPECT_EQ(bytes_of(name), "the old file");
     }
     EXPECT_EQ(files_in(folder_), 2u);
@@ -124,6 +120,7 @@ TEST_F(Write, TheInputMayBeTheOutput) {
 }
 
 TEST_F(Write, ColoursOfAnotherCountAreRefused) {
-    EXPECT_THROW(write_mesh(triangle(), path("out.ply"), {.colors = {Color{}}, .comments = {}}),
-                 std::invalid_argument);
+    Mesh mesh = triangle();
+    mesh.added_colors = {Color{}};
+    EXPECT_THROW(write_mesh(mesh, path("out.ply")), std::invalid_argument);
 }

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Renders scene files and level sets with random damage, or asks what they hold, and tells what ends otherwise than it
-should.
+"""Runs `render` or `info` on randomly mutated scene files and level sets, and reports the runs that fail.
 
     mutate.py PROGRAM SCENES.toml... [--count 2000] [--seed 1]
 
-A run must end with exit code 0, 2 or 3 within ten seconds and 2 GB. Scenes are drawn with their own files; one
-level set is made first. What fails is kept in a folder that is named at the end.
+A run must end with exit code 0, 2 or 3 within ten seconds and 2 GB. The program makes the level set first. Inputs that
+fail are kept in a folder whose name is printed at the end.
 """
 import argparse
 import os
@@ -58,7 +57,7 @@ def damage_bytes(data, rng):
     data = bytearray(data)
     for _ in range(rng.randint(1, 6)):
         kind = rng.randrange(5)
-        # The header and what describes the grids come first.
+        # Mostly hit the front: the header and the grid descriptors.
         at = rng.randrange(min(len(data), 2000)) if rng.random() < 0.8 else rng.randrange(len(data))
         if kind == 0:
             data[at] ^= 1 << rng.randrange(8)
@@ -92,7 +91,7 @@ def run(arguments, folder):
         return "ended with %d: %s" % (code, err.decode("utf-8", "replace").strip()[:200])
     errors = [line for line in err.decode("utf-8", "replace").split("\n") if line.startswith("alcove: ") and "warning" not in line]
     if code != 0 and len(errors) != 1:
-        return "said %d lines of error" % len(errors)
+        return "printed %d error lines instead of one" % len(errors)
     return None
 
 
@@ -113,20 +112,20 @@ def main():
     scenes = []
     for scene in options.scenes:
         with open(scene, encoding="utf-8") as text:
-            # Meshes of the scenes are found from where they are; a small one stands for them.
+            # Use a small mesh in place of the meshes of the scenes.
             scenes.append(re.sub(r'file = ".*"', 'file = "box.off"', text.read()))
     scenes.append('[ground]\n[[object]]\nshape = "vdb"\nfile = "box.vdb"\nrotate = [10, 20, 30]\n')
     with open(os.path.join(folder, "box.vdb"), "rb") as grid:
         level_set = grid.read()
-    drawing = ["-o", "out.png", "--size", "32x24", "--pixel-samples", "1", "--rays", "4", "--quiet"]
+    render_options = ["-o", "out.png", "--size", "32x24", "--pixel-samples", "1", "--method", "traced", "--rays", "4", "--quiet"]
     failures = 0
     for i in range(options.count):
         if i % 2 == 0:
             name, data = "mutant.toml", damage_text(rng.choice(scenes), rng)
-            arguments = [option for option in drawing if option not in ("--rays", "4")]
+            arguments = [option for option in render_options if option not in ("--method", "traced", "--rays", "4")]
         else:
             name, data = "mutant.vdb", damage_bytes(level_set, rng)
-            arguments = drawing
+            arguments = render_options
         verb = ["info", name] if name.endswith(".vdb") and rng.random() < 0.5 else ["render", name] + arguments
         with open(os.path.join(folder, name), "wb") as mutant:
             mutant.write(data)

@@ -14,7 +14,7 @@ double area_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     return 0.5 * glm::length(glm::cross(Vec3d(b - a), Vec3d(c - a)));
 }
 
-/// Every part of every triangle is in one group, and none is longer than it may be.
+/// The leaves contain each part of every triangle exactly once, and no fragment is too long.
 void expect_whole(const std::vector<Vec3d>& positions, const std::vector<Triangle>& triangles) {
     const FragmentLeaves fragments(positions, triangles);
     std::vector<double> areas(triangles.size());
@@ -31,8 +31,7 @@ void expect_whole(const std::vector<Vec3d>& positions, const std::vector<Triangl
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& [a, b, c] = triangles[t];
-        const double area =
-            0.5 * glm::length(glm::cross(positions[b] - positions[a], positions[c] - positions[a]));
+        const double area = 0.5 * glm::length(glm::cross(positions[b] - positions[a], positions[c] - positions[a]));
         EXPECT_NEAR(areas[t], area, 1e-4 * area + 1e-6) << t;
     }
 }
@@ -47,7 +46,7 @@ TEST(Fragments, HoldEveryTriangleOnce) {
     }
 }
 
-/// Halved side by side, they would be a thousand each.
+/// Repeated halving would give a thousand fragments each.
 TEST(Fragments, OfNeedlesGrowWithTheirLengthAlone) {
     std::vector<Vec3d> positions;
     std::vector<Triangle> triangles;
@@ -55,9 +54,8 @@ TEST(Fragments, OfNeedlesGrowWithTheirLengthAlone) {
         for (const double foot : {0.0, 1e-9, 0.3, 0.5, 1.0}) {
             const auto first = static_cast<std::uint32_t>(positions.size());
             const Vec3d at(3.0, 2.0, 1.0), along(300.0, 100.0, 50.0);
-            positions.insert(
-                positions.end(),
-                {at, at + along, at + foot * along + width * glm::normalize(Vec3d(1.0, -3.0, 0.0))});
+            positions.insert(positions.end(),
+                             {at, at + along, at + foot * along + width * glm::normalize(Vec3d(1.0, -3.0, 0.0))});
             triangles.push_back({first, first + 1, first + 2});
         }
     expect_whole(positions, triangles);
@@ -86,7 +84,7 @@ TEST(Fragments, OfOneCellInAHugeGridAreGroupedToo) {
     expect_whole(positions, triangles);
 }
 
-/// Of a sheet of triangles, eight that are nearest to one another are two by two squares.
+/// In a regular sheet, the most compact leaf of eight triangles is two by two squares.
 TEST(Fragments, AreInFullAndCompactGroups) {
     constexpr std::uint32_t side = 100;
     constexpr double size = 0.9; // voxels
@@ -112,12 +110,12 @@ TEST(Fragments, AreInFullAndCompactGroups) {
             }
         perimeters += 2.0 * (high.x - low.x + high.y - low.y);
     }
-    const auto groups = static_cast<double>(fragments.count());
-    EXPECT_GT(static_cast<double>(triangles.size()) / groups, 7.4);
-    EXPECT_LT(perimeters / groups, 1.3 * 8.0 * size);
+    const auto leaves = static_cast<double>(fragments.count());
+    EXPECT_GT(static_cast<double>(triangles.size()) / leaves, 7.4);
+    EXPECT_LT(perimeters / leaves, 1.3 * 8.0 * size);
 }
 
-/// Floats hold a group from its first voxel on.
+/// A leaf must be small, as floats store it relative to its first voxel.
 TEST(Fragments, FarApartAreInGroupsOfTheirOwn) {
     std::vector<Vec3d> positions;
     std::vector<Triangle> triangles;
@@ -133,9 +131,9 @@ TEST(Fragments, FarApartAreInGroupsOfTheirOwn) {
     const FragmentLeaves fragments(positions, triangles);
     for (std::size_t g = 0; g < fragments.count(); ++g)
         for (std::size_t i = fragments.begin(g); i < fragments.begin(g + 1); ++i) {
-            const Index3 way =
+            const Index3 distance =
                 glm::abs(fragments.fragment(i).origin - fragments.fragment(fragments.begin(g)).origin);
-            EXPECT_LT(std::max(way.x, way.y), 60'000);
+            EXPECT_LT(std::max(distance.x, distance.y), 60'000);
         }
 }
 

@@ -1,8 +1,7 @@
-/// The scene of "SDF Ambient Occlusion — Detailed Reference" (2026): a sphere and a torus on a plane.
+/// The reference scene (sdfao2026): a sphere and a torus on a plane.
 #pragma once
 
 #include "alcove/base/types.h"
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 
 #include <cmath>
@@ -11,10 +10,10 @@
 
 namespace alcove::test {
 
-struct DocumentsScene {
+struct ReferenceScene {
     Union<Plane, Sphere, Torus> field{Plane{}, Sphere{{0, 1, 0}, 1.0f}, Torus{{0, 0.5f, 0}, 1.5f, 0.4f}};
 
-    /// The scene once more, in double.
+    /// The distance in double precision.
     double distance(const Vec3d& p) const {
         const double sphere = glm::length(p - Vec3d(0, 1, 0)) - 1.0;
         const double ring = std::sqrt(p.x * p.x + p.z * p.z) - 1.5, height = p.y - 0.5;
@@ -22,7 +21,7 @@ struct DocumentsScene {
         return std::fmin(p.y, std::fmin(sphere, torus));
     }
 
-    /// Points of the surface around the objects with the document's normals: central differences of 0.001.
+    /// Points on the surface near the objects, with the normals of the reference: central differences of 0.001.
     std::vector<Surfel> surfels(std::size_t count) const {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> across(-2.5, 2.5), up(0.0, 2.2);
@@ -40,9 +39,7 @@ struct DocumentsScene {
   private:
     Vec3d gradient(const Vec3d& p) const {
         const double h = 0.001;
-        const auto slope = [&](const Vec3d& e) {
-            return (distance(p + h * e) - distance(p - h * e)) / (2 * h);
-        };
+        const auto slope = [&](const Vec3d& e) { return (distance(p + h * e) - distance(p - h * e)) / (2 * h); };
         return {slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
     }
 };

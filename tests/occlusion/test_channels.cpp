@@ -1,6 +1,5 @@
-/// What channels cost, and that asking for more of them changes none.
+/// The cost of channels, and that requesting more of them changes none.
 #include "alcove/base/errors.h"
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "alcove/occlusion/catalog.h"
 #include "alcove/occlusion/methods/reference/classic.h"
@@ -23,7 +22,7 @@
 namespace alcove {
 namespace {
 
-/// A field that knows how often it was asked.
+/// A field that counts map() calls.
 template <Field F>
 struct Counted {
     F field;
@@ -39,12 +38,12 @@ struct Counted {
     }
 };
 
-/// What a bake asks of the field, in map() calls.
+/// The number of map() calls of a bake.
 template <class E>
 std::size_t calls(const E& estimator, ChannelSet wanted) {
-    const test::DocumentsScene scene;
+    const test::ReferenceScene scene;
     const Counted field{scene.field};
-    bake_channels(scene.surfels(1000), field, estimator, wanted);
+    evaluate(scene.surfels(1000), field, estimator, wanted);
     return *field.calls;
 }
 
@@ -57,7 +56,7 @@ TEST(Channels, ComeOutOfOnePass) {
     EXPECT_EQ(calls(traced, Channel::ao | Channel::bent_normal), calls(traced, Channel::ao));
 }
 
-/// A field, and a triangle in the ground for what asks triangles.
+/// A field, and a triangle in the ground for methods that need triangles.
 Occluders with_ground(AnyField field) {
     const std::vector<Vec3> corners{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}};
     return {std::move(field), RaySurface(corners, std::vector<Triangle>{{0, 1, 2}})};
@@ -71,7 +70,7 @@ const ChannelSet everything = [] {
 }();
 
 TEST(Channels, OfAllKindsLeaveTheAoAsItIs) {
-    const test::DocumentsScene scene;
+    const test::ReferenceScene scene;
     const std::vector<Surfel> surfels = scene.surfels(200);
     const Occluders occluders = with_ground(scene.field);
     for (const Method& method : catalog()) {
@@ -79,20 +78,19 @@ TEST(Channels, OfAllKindsLeaveTheAoAsItIs) {
             continue;
         const ChannelSet halves = Channel::ao_short | Channel::ao_long;
         const ChannelSet all = everything.without(halves.without(method.gives));
-        const ChannelValues one = bake_channels(surfels, occluders, method, {.radius = 0.5f}, Channel::ao);
-        const ChannelValues many = bake_channels(surfels, occluders, method, {.radius = 0.5f}, all);
+        const ChannelValues one = evaluate(surfels, occluders, method, {.radius = 0.5f}, Channel::ao);
+        const ChannelValues many = evaluate(surfels, occluders, method, {.radius = 0.5f}, all);
         EXPECT_EQ(one[Channel::ao], many[Channel::ao]) << method.name;
         for (const ChannelInfo& channel : channels) {
             EXPECT_EQ(one[channel.channel].size(), channel.channel == Channel::ao ? 200u : 0u);
-            EXPECT_EQ(many[channel.channel].size(),
-                      all.has(channel.channel) ? 200u * channel.components : 0u);
+            EXPECT_EQ(many[channel.channel].size(), all.has(channel.channel) ? 200u * channel.components : 0u);
         }
     }
 }
 
 TEST(Channels, AreGivenByTheChosenMethodElseByTheFirst) {
-    const Method &classic = find_method("classic"), &traced = find_method("traced"),
-                 &decay = find_method("decay"), &multiscale = find_method("multiscale");
+    const Method &classic = find_method("classic"), &traced = find_method("traced"), &decay = find_method("decay"),
+                 &multiscale = find_method("multiscale");
     const auto names = [](const Method& chosen, ChannelSet wanted) {
         std::vector<std::string_view> found;
         for (const Method* method : methods_for(chosen, wanted))
@@ -102,8 +100,7 @@ TEST(Channels, AreGivenByTheChosenMethodElseByTheFirst) {
     using Names = std::vector<std::string_view>;
     EXPECT_EQ(names(classic, Channel::ao | Channel::convexity), Names{"classic"});
     EXPECT_EQ(names(traced, Channel::ao | Channel::bent_normal), Names{"traced"});
-    EXPECT_EQ(names(decay, Channel::ao | Channel::convexity | Channel::bent_normal),
-              (Names{"decay", "classic"}));
+    EXPECT_EQ(names(decay, Channel::ao | Channel::convexity | Channel::bent_normal), (Names{"decay", "classic"}));
     EXPECT_EQ(names(decay, Channel::thickness), Names{"thickness"});
     EXPECT_EQ(names(multiscale, Channel::ao | Channel::ao_short | Channel::ao_long), Names{"multiscale"});
     EXPECT_TRUE(names(classic, {}).empty());
@@ -136,26 +133,24 @@ TEST(Settings, AreCheckedByNameAndRange) {
     expect_wrong("classic", "strength", INFINITY, "from 0 to 100");
     expect_wrong("traced", "cosine_weighted", 0.5, "whole number");
     expect_wrong("traced", "seed", 4294967296.0, "seed of traced");
-    // Where several methods are at work a parameter may be that of any, and is that of the first which has it.
+    // If several methods run, a parameter may belong to any of them; it goes to the first that has it.
     const std::vector<const Method*> two{&find_method("decay"), &find_method("traced")};
     EXPECT_NO_THROW(check_settings(two, {.parameters = {{"rays", 5}, {"linear", 1}}}));
     EXPECT_THROW(check_settings(two, {.parameters = {{"strength", 1}}}), InputError);
-    EXPECT_THROW(bake_channels({}, with_ground(Plane{}), find_method("classic"),
-                               {.parameters = {{"rays", 5}}}, Channel::ao),
+    EXPECT_THROW(evaluate({}, with_ground(Plane{}), find_method("classic"), {.parameters = {{"rays", 5}}}, Channel::ao),
                  InputError);
 }
 
 TEST(Settings, ReachTheFirstMethodThatHasThemAlone) {
-    const test::DocumentsScene scene;
+    const test::ReferenceScene scene;
     const std::vector<Surfel> surfels = scene.surfels(300);
     const Occluders occluders = with_ground(scene.field);
     const ChannelSet wanted = Channel::ao | Channel::convexity;
     const auto baked = [&](std::vector<std::pair<std::string, double>> parameters) {
-        return bake_channels(surfels, occluders, find_method("calibrated"),
-                             {.radius = 0.5f, .parameters = std::move(parameters)}, wanted);
+        return evaluate(surfels, occluders, find_method("calibrated"),
+                        {.radius = 0.5f, .parameters = std::move(parameters)}, wanted);
     };
-    const ChannelValues standard = baked({}), sampled = baked({{"samples", 10}}),
-                        weaker = baked({{"strength", 0.5}});
+    const ChannelValues standard = baked({}), sampled = baked({{"samples", 10}}), weaker = baked({{"strength", 0.5}});
     EXPECT_NE(sampled[Channel::ao], standard[Channel::ao]);
     EXPECT_EQ(sampled[Channel::convexity], standard[Channel::convexity]);
     EXPECT_EQ(weaker[Channel::ao], standard[Channel::ao]);
@@ -163,7 +158,7 @@ TEST(Settings, ReachTheFirstMethodThatHasThemAlone) {
 }
 
 TEST(Settings, EveryParameterStartsInRangeAndIsSetByItsName) {
-    const test::DocumentsScene scene;
+    const test::ReferenceScene scene;
     const std::vector<Surfel> surfels = scene.surfels(300);
     const std::vector<std::uint32_t> order = spatial_order(surfels);
     const Occluders occluders = with_ground(scene.field);
@@ -181,16 +176,15 @@ TEST(Settings, EveryParameterStartsInRangeAndIsSetByItsName) {
             EXPECT_GE(p.max, p.standard);
             const std::string name(p.name);
             EXPECT_EQ(baked({{name, p.standard}}).values, standard.values);
-            // Counts up to what is quick.
-            const double most = p.integer && name != "seed" ? std::min(p.max, 64.0) : p.max;
+            // Limits counts to keep the test fast.
+            const double max = p.integer && name != "seed" ? std::min(p.max, 64.0) : p.max;
             bool matters = false;
-            for (const double value : {p.min, most}) {
+            for (const double value : {p.min, max}) {
                 const ChannelValues values = baked({{name, value}});
                 matters |= values.values != standard.values;
                 for (const ChannelInfo& channel : channels)
                     for (const float found : values[channel.channel])
-                        EXPECT_TRUE(found >= (channel.components == 3 ? -1.0f : 0.0f) && found <= 1.0f)
-                            << found;
+                        EXPECT_TRUE(found >= (channel.components == 3 ? -1.0f : 0.0f) && found <= 1.0f) << found;
             }
             EXPECT_TRUE(matters || p.name == "falloff");
         }
@@ -211,8 +205,8 @@ void expect_round_trip() {
 }
 
 TEST(Settings, WhatIsSetIsGot) {
-    expect_round_trip<Classic, Exponential, Decay, Multiplicative, Multiscale, Jittered, Hemisphere,
-                      HemisphereRandom, Fibonacci, Traced>();
+    expect_round_trip<Classic, Exponential, Decay, Multiplicative, Multiscale, Jittered, Hemisphere, HemisphereRandom,
+                      Fibonacci, Traced>();
 }
 
 }

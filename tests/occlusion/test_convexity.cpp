@@ -1,10 +1,9 @@
-/// The convexity of Classic: flat, edge and corner, and against the angles of the mesh itself.
+/// The convexity of Classic on planes, edges and corners, and against dihedral angles of scans.
 #include "alcove/occlusion/methods/reference/classic.h"
 
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "alcove/mesh/read.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "shapes.h"
 #include "voxelized.h"
 
@@ -18,7 +17,7 @@ namespace {
 
 template <class F>
 std::vector<float> convexity(const std::vector<Surfel>& surfels, const F& field, float radius) {
-    return bake_channels(surfels, field, Classic{.radius = radius}, Channel::convexity)[Channel::convexity];
+    return evaluate(surfels, field, Classic{.radius = radius}, Channel::convexity)[Channel::convexity];
 }
 
 /// A flat box of 1 x 1 x 0.4 around the origin, for radii up to 0.2.
@@ -27,7 +26,7 @@ const test::Voxelized& voxelized_box() {
     return box;
 }
 
-/// Surfels on its top, from the middle to the edge; in the unit of the mesh.
+/// Surfels on the top of the box, from the middle to an edge, in mesh units.
 std::vector<Surfel> toward_the_edge() {
     std::vector<Surfel> surfels;
     for (int i = 0; i <= 98; ++i)
@@ -51,8 +50,7 @@ TEST(Convexity, OfAPlaneIsAHalf) {
     std::vector<Surfel> middle;
     for (int x = -10; x <= 10; ++x)
         for (int y = -10; y <= 10; ++y)
-            middle.push_back(
-                {{0.0213f * static_cast<float>(x), 0.0207f * static_cast<float>(y), 0.2f}, {0, 0, 1}});
+            middle.push_back({{0.0213f * static_cast<float>(x), 0.0207f * static_cast<float>(y), 0.2f}, {0, 0, 1}});
     for (const float value : convexity(to_unit(middle, box.frame), box.field, 0.1f))
         EXPECT_NEAR(value, 0.5f, 0.001f);
 }
@@ -84,8 +82,8 @@ TEST(Convexity, FallsTowardAnInnerCorner) {
     EXPECT_NEAR(values.back(), 0.5f, 1e-5f);
 }
 
-/// Along each edge the angle between its two faces, positive where they bend away from the outside; at each
-/// vertex the mean of its edges, weighted by their length. NaN at rims.
+/// The mean dihedral angle of the edges at each vertex, weighted by edge length; positive for convex edges. NaN at
+/// borders.
 std::vector<double> mean_dihedrals(const test::Voxelized& scan) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3d> sides; // directed edge -> normal of its triangle
     const auto at = [&](std::uint32_t v) { return scan.mesh.positions[v]; };
@@ -119,8 +117,7 @@ class ConvexityOfScans : public testing::TestWithParam<const char*> {};
 
 TEST_P(ConvexityOfScans, AgreesWithTheMeanDihedral) {
     const float radius = 0.02f;
-    const test::Voxelized scan(read_mesh(std::string(ALCOVE_REAL_MESHES) + "/" + GetParam()), radius,
-                               radius / 4);
+    const test::Voxelized scan(read_mesh(std::string(ALCOVE_REAL_MESHES) + "/" + GetParam()), radius, radius / 4);
     const std::vector<double> angles = mean_dihedrals(scan);
     // Strongly curved: the tenth of the vertices with the largest angles.
     std::vector<double> sorted;

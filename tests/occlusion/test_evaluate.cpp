@@ -1,4 +1,4 @@
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 
 #include "alcove/base/errors.h"
 #include "alcove/field/primitives.h"
@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// A new estimator is one struct: here, one that tells how high a surfel is.
+/// A new estimator is a single struct; this one returns the height of a surfel.
 struct Height {
     float top = 1.0f;
 
@@ -28,22 +28,22 @@ TEST(Bake, TakesAnyEstimatorAndKeepsTheOrderOfTheSurfels) {
         surfels.push_back(
             {{static_cast<float>(i * 37 % 101), static_cast<float>(i * 53 % 997) / 997.0f, 0}, {0, 1, 0}});
     surfels[77].normal = Vec3(0.0f);
-    const std::vector<float> ao = bake(surfels, Plane{}, Height{});
+    const std::vector<float> ao = evaluate_ao(surfels, Plane{}, Height{});
     for (std::size_t i = 0; i < surfels.size(); ++i)
         EXPECT_EQ(ao[i], i == 77 ? 1.0f : surfels[i].position.y);
 }
 
 TEST(Bake, OfNothingIsNothing) {
-    EXPECT_TRUE(bake(std::vector<Surfel>{}, Plane{}, Height{}).empty());
-    EXPECT_EQ(bake(std::vector<Surfel>{{{0, 0, 0}, {0, 0, 0}}}, Plane{}, Height{}), std::vector<float>{1.0f});
+    EXPECT_TRUE(evaluate_ao(std::vector<Surfel>{}, Plane{}, Height{}).empty());
+    EXPECT_EQ(evaluate_ao(std::vector<Surfel>{{{0, 0, 0}, {0, 0, 0}}}, Plane{}, Height{}), std::vector<float>{1.0f});
 }
 
 TEST(Bake, SpatialOrderIsAPermutationOfTheSurfelsWithANormal) {
     std::vector<Surfel> surfels;
     for (int i = 0; i < 1000; ++i)
-        surfels.push_back({{static_cast<float>(i * 7 % 10), static_cast<float>(i / 10 * 3 % 10),
-                            static_cast<float>(i / 100)},
-                           i % 7 ? Vec3(0, 1, 0) : Vec3(0.0f)});
+        surfels.push_back(
+            {{static_cast<float>(i * 7 % 10), static_cast<float>(i / 10 * 3 % 10), static_cast<float>(i / 100)},
+             i % 7 ? Vec3(0, 1, 0) : Vec3(0.0f)});
     const std::vector<std::uint32_t> order = spatial_order(surfels);
     const std::set<std::uint32_t> seen(order.begin(), order.end());
     EXPECT_EQ(seen.size(), order.size());
@@ -63,14 +63,13 @@ TEST(Catalog, EveryMethodSaysWhatItIsAndBakes) {
     const Occluders plane(Plane{}, RaySurface(corners, std::vector<Triangle>{{0, 1, 2}}));
     for (const Method& method : catalog()) {
         EXPECT_TRUE(names.insert(method.name).second);
-        EXPECT_FALSE(method.summary.empty() || method.formula.empty() || method.source.empty() ||
-                     method.cost.empty() || method.good.empty() || method.bad.empty());
+        EXPECT_FALSE(method.summary.empty() || method.formula.empty() || method.source.empty() || method.cost.empty() ||
+                     method.good.empty() || method.bad.empty());
         if (method.gives.has(Channel::ao))
             EXPECT_EQ(&find_method(method.name), &method);
         else
             EXPECT_THROW(find_method(method.name), InputError);
-        const ChannelValues values =
-            method.bake(surfels, spatial_order(surfels), plane, {}, method.gives, {});
+        const ChannelValues values = method.bake(surfels, spatial_order(surfels), plane, {}, method.gives, {});
         for (const ChannelInfo& channel : channels) {
             ASSERT_EQ(values[channel.channel].size(),
                       method.gives.has(channel.channel) ? surfels.size() * channel.components : 0);

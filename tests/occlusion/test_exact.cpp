@@ -1,5 +1,6 @@
-/// exact against closed forms on triangles (J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration
-/// Factors", 1982), against every triangle tried in double precision, and against rays shot elsewhere.
+/// exact against closed forms on triangles (Howell 1982), against brute force over all triangles in double precision,
+/// and against an independent ray tracer.
+#include "alcove/field/detail/trace.h"
 #include "alcove/occlusion/methods/exact.h"
 
 #include "alcove/base/errors.h"
@@ -25,7 +26,7 @@ struct Triangles {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
 
-    /// a, b, c, d in turn.
+    /// Corners in order around the quad.
     void add_quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         const auto first = static_cast<std::uint32_t>(positions.size());
         positions.insert(positions.end(), {a, b, c, d});
@@ -40,7 +41,7 @@ Triangles floor_of(float half) {
     return floor;
 }
 
-/// A floor and a wall at x = 0, so large that their ends are out of sight.
+/// A floor and a wall at x = 0, large enough to count as infinite.
 Triangles floor_and_wall(float height, bool toward_negative_x = false) {
     constexpr float half = 500.0f;
     Triangles scene = floor_of(half);
@@ -52,7 +53,7 @@ Triangles floor_and_wall(float height, bool toward_negative_x = false) {
 }
 
 double exact(const Triangles& scene, const Surfel& surfel, float radius, int rays = 4096) {
-    return bake(std::vector{surfel}, scene.surface(), Exact{.radius = radius, .rays = rays}).front();
+    return evaluate_ao(std::vector{surfel}, scene.surface(), Exact{.radius = radius, .rays = rays}).front();
 }
 
 double exact_on_floor(const Triangles& scene, float x, float radius) {
@@ -69,8 +70,7 @@ TEST(Exact, FloorBesideAWall) {
     for (const float x : {0.05f, 0.2f, 0.5f, 0.9f})
         for (const float radius : {0.3f, 1.0f, 2.5f}) {
             const double u = std::min(1.0, double(x) / radius);
-            EXPECT_NEAR(exact_on_floor(scene, x, radius),
-                        1.0 - (std::acos(u) - u * std::sqrt(1 - u * u)) / pi, 0.005)
+            EXPECT_NEAR(exact_on_floor(scene, x, radius), 1.0 - (std::acos(u) - u * std::sqrt(1 - u * u)) / pi, 0.005)
                 << x << " " << radius;
         }
     EXPECT_NEAR(exact_on_floor(scene, 0.3f, infinite), 0.5, 0.005);
@@ -79,15 +79,14 @@ TEST(Exact, FloorBesideAWall) {
 TEST(Exact, FloorBesideAWallOfSomeHeight) {
     for (const float height : {0.5f, 1.0f, 3.0f})
         for (const float x : {0.1f, 0.5f, 2.0f})
-            EXPECT_NEAR(exact_on_floor(floor_and_wall(height), x, infinite),
-                        0.5 * (1.0 + x / std::hypot(x, height)), 0.005)
+            EXPECT_NEAR(exact_on_floor(floor_and_wall(height), x, infinite), 0.5 * (1.0 + x / std::hypot(x, height)),
+                        0.005)
                 << height << " " << x;
 }
 
 TEST(Exact, FacesAreTwoSided) {
     for (const float x : {0.05f, 0.5f})
-        EXPECT_EQ(exact_on_floor(floor_and_wall(1.0f), x, 1.0f),
-                  exact_on_floor(floor_and_wall(1.0f, true), x, 1.0f));
+        EXPECT_EQ(exact_on_floor(floor_and_wall(1.0f), x, 1.0f), exact_on_floor(floor_and_wall(1.0f, true), x, 1.0f));
 }
 
 TEST(Exact, InsideASphere) {
@@ -117,10 +116,8 @@ TEST(Exact, FloorOfAPit) {
             }
             for (const float radius : {0.25f, 0.6f, 1.5f, infinite}) {
                 const double a2 = double(a) * a, r = radius;
-                const double expected =
-                    std::min(1.0, std::max(a2 / (a2 + double(depth) * depth), a2 / (r * r)));
-                EXPECT_NEAR(exact_on_floor(pit, 0.0f, radius), expected, 0.005)
-                    << a << " " << depth << " " << r;
+                const double expected = std::min(1.0, std::max(a2 / (a2 + double(depth) * depth), a2 / (r * r)));
+                EXPECT_NEAR(exact_on_floor(pit, 0.0f, radius), expected, 0.005) << a << " " << depth << " " << r;
             }
         }
 }
@@ -129,14 +126,13 @@ TEST(Exact, BentNormalInACorner) {
     const Triangles scene = floor_and_wall(500.0f);
     const std::vector<Surfel> surfels{{{0.1f, 0, 0}, {0, 1, 0}}, {{0.1f, 1e-3f, 0}, {0, -1, 0}}};
     const ChannelValues baked =
-        bake_channels(surfels, scene.surface(), Exact{.radius = infinite, .rays = 4096},
-                      Channel::ao | Channel::bent_normal);
+        evaluate(surfels, scene.surface(), Exact{.radius = infinite, .rays = 4096}, Channel::ao | Channel::bent_normal);
     const std::vector<float>& bent = baked[Channel::bent_normal];
     // ∫ ω cos θ over the quarter of the sphere that is open: (2/3, π/3, 0).
     const Vec3 expected = glm::normalize(Vec3(2.0f / 3.0f, pi / 3.0, 0.0f));
     EXPECT_LT(glm::length(Vec3(bent[0], bent[1], bent[2]) - expected), 0.01f);
     EXPECT_NEAR(glm::length(Vec3(bent[0], bent[1], bent[2])), 1.0f, 1e-6f);
-    // Facing the floor from just above it, nothing is open.
+    // Just above the floor and facing it, nothing is open.
     EXPECT_EQ(baked[Channel::ao][1], 0.0f);
     EXPECT_EQ(Vec3(bent[3], bent[4], bent[5]), Vec3(0.0f));
 }
@@ -147,26 +143,23 @@ TEST(CosineLattice, IsTheShiftedLatticeOverTheHemisphere) {
     for (std::uint32_t random = 1; random < 200; ++random) {
         const CosineLattice::Shift shift(hash(random));
         for (int i = 0; i < count; ++i) {
-            const Vec2 uv =
-                fibonacci_point(i, count, unit_interval(hash(random)), unit_interval(hash(hash(random))));
+            const Vec2 uv = fibonacci_point(i, count, unit_interval(hash(random)), unit_interval(hash(hash(random))));
             EXPECT_LT(glm::length(lattice.direction(i, shift) - cosine_hemisphere(uv.x, uv.y)), 1e-3f);
         }
     }
 }
 
-/// How the ray meets the triangles within `far`, in double precision, every triangle tried. T. Möller,
-/// B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997).
+/// Whether the ray hits any triangle within `far`, by brute force in double precision (Möller and Trumbore 1997).
 enum class Meets { no, yes, too_close_to_call };
 Meets meets_any(const Triangles& scene, const Vec3d& origin, const Vec3d& direction, double far) {
     constexpr double margin = 1e-5;
     Meets meets = Meets::no;
     for (const auto& [ia, ib, ic] : scene.triangles) {
-        const Vec3d a = scene.positions[ia], ab = Vec3d(scene.positions[ib]) - a,
-                    ac = Vec3d(scene.positions[ic]) - a;
+        const Vec3d a = scene.positions[ia], ab = Vec3d(scene.positions[ib]) - a, ac = Vec3d(scene.positions[ic]) - a;
         const Vec3d across = glm::cross(direction, ac);
         const double determinant = glm::dot(ab, across);
         const Vec3d from = origin - a, q = glm::cross(from, ab);
-        // How far inside each bound the crossing is; a negative one is outside.
+        // The smallest margin of the hit over all bounds; negative outside.
         const double u = glm::dot(from, across) / determinant, v = glm::dot(direction, q) / determinant;
         const double t = glm::dot(ac, q) / determinant;
         const double inside = std::min({u, v, 1.0 - u - v, t / 1e-2, (far - t) / far});
@@ -186,7 +179,7 @@ TEST(Exact, EveryRayIsAsEveryTriangleTriedSays) {
         scene.positions.push_back(surfel.position);
     constexpr int rays = 32;
     const Exact estimator{.radius = 0.2f, .rays = rays, .seed = 7};
-    const std::vector<float> ao = bake(surfels, scene.surface(), estimator);
+    const std::vector<float> ao = evaluate_ao(surfels, scene.surface(), estimator);
     int compared = 0;
     for (std::size_t s = 0; s < surfels.size(); s += 47) {
         const Surfel& surfel = surfels[s];
@@ -222,11 +215,10 @@ TEST(Exact, AgreesWithRaysShotElsewhere) {
         const test::ExactSurface oracle(real.mesh, real.triangles, real.frame);
         std::vector<float> previous(some.size(), 1.0f);
         for (const float radius : {0.02f, 0.1f, 0.5f, infinite}) {
-            const std::vector<float> ao = bake(some, surface, Exact{.radius = radius, .rays = 1024});
+            const std::vector<float> ao = evaluate_ao(some, surface, Exact{.radius = radius, .rays = 1024});
             double sum = 0.0;
             for (std::size_t i = 0; i < some.size(); ++i) {
-                const double error =
-                    some[i].has_normal() ? ao[i] - oracle.visibility(some[i], radius, 1024) : 0.0;
+                const double error = some[i].has_normal() ? ao[i] - oracle.visibility(some[i], radius, 1024) : 0.0;
                 sum += error * error;
                 EXPECT_LE(ao[i], previous[i]) << "the same rays, reaching further";
             }
@@ -240,18 +232,17 @@ TEST(Exact, DependsOnThePlaceAndTheSeedAlone) {
     const RaySurface surface = floor_and_wall(1.0f).surface();
     std::vector<Surfel> surfels;
     for (int i = 0; i < 5000; ++i)
-        surfels.push_back(
-            {{0.001f * static_cast<float>(1 + i % 977), 0, 0.01f * static_cast<float>(i)}, {0, 1, 0}});
+        surfels.push_back({{0.001f * static_cast<float>(1 + i % 977), 0, 0.01f * static_cast<float>(i)}, {0, 1, 0}});
     const Exact estimator{.radius = 0.5f, .rays = 8};
-    const std::vector<float> ao = bake(surfels, surface, estimator);
+    const std::vector<float> ao = evaluate_ao(surfels, surface, estimator);
     const std::vector<Surfel> reversed(surfels.rbegin(), surfels.rend());
-    const std::vector<float> backward = bake(reversed, RaySurface(surface), estimator);
+    const std::vector<float> backward = evaluate_ao(reversed, RaySurface(surface), estimator);
     EXPECT_TRUE(std::equal(ao.begin(), ao.end(), backward.rbegin()));
     {
         const ThreadLimit one(1);
-        EXPECT_EQ(bake(surfels, surface, estimator), ao);
+        EXPECT_EQ(evaluate_ao(surfels, surface, estimator), ao);
     }
-    EXPECT_NE(bake(surfels, surface, Exact{.radius = 0.5f, .rays = 8, .seed = 1}), ao);
+    EXPECT_NE(evaluate_ao(surfels, surface, Exact{.radius = 0.5f, .rays = 8, .seed = 1}), ao);
 }
 
 TEST(RaySurface, TakesDegenerateTrianglesAndNone) {
@@ -259,8 +250,7 @@ TEST(RaySurface, TakesDegenerateTrianglesAndNone) {
     const double before = exact_on_floor(scene, 0.2f, 1.0f);
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    scene.positions.insert(scene.positions.end(),
-                           {{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}, {nan, 0, 0}, {0, infinite, 0}});
+    scene.positions.insert(scene.positions.end(), {{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}, {nan, 0, 0}, {0, infinite, 0}});
     scene.triangles.insert(scene.triangles.end(), {{first, first, first},
                                                    {first, first + 1, first + 2},
                                                    {first, first + 1, first + 3},
@@ -299,8 +289,8 @@ TEST(NearestHits, AreThePlacesThatTheirWeightsName) {
         if (!rays.hit[i])
             continue;
         ++met;
-        const Vec3 place = Vec3(rays.x[i], rays.y[i], rays.z[i]) +
-                           rays.travelled[i] * Vec3(rays.dx[i], rays.dy[i], rays.dz[i]);
+        const Vec3 place =
+            Vec3(rays.x[i], rays.y[i], rays.z[i]) + rays.travelled[i] * Vec3(rays.dx[i], rays.dy[i], rays.dz[i]);
         Vec3 weighted(0.0f);
         for (int k = 0; k < 3; ++k) {
             EXPECT_GE(hits[i].weights[k], -1e-5f);
@@ -308,12 +298,11 @@ TEST(NearestHits, AreThePlacesThatTheirWeightsName) {
         }
         EXPECT_NEAR(glm::length(weighted - place), 0.0f, 2e-5f);
         EXPECT_NEAR(hits[i].weights.x + hits[i].weights.y + hits[i].weights.z, 1.0f, 1e-5f);
-        EXPECT_LT(glm::length(place), 1.0f); // the near side: toward the start
+        EXPECT_LT(glm::length(place), 1.0f);
         EXPECT_LT(rays.travelled[i], 2.0f);
-        EXPECT_NE(
-            std::find_if(triangles.begin(), triangles.end(),
-                         [&](const Triangle& t) { return std::ranges::is_permutation(t, hits[i].vertices); }),
-            triangles.end());
+        EXPECT_NE(std::find_if(triangles.begin(), triangles.end(),
+                               [&](const Triangle& t) { return std::ranges::is_permutation(t, hits[i].vertices); }),
+                  triangles.end());
     }
     EXPECT_GT(met, 100);
 }

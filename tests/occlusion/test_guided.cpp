@@ -1,8 +1,7 @@
-/// guided against closed forms: its rays shared must be better than alone, and never shared with a surfel that
-/// sees something else.
+/// guided against closed forms: filtering must improve on the rays of single surfels, and must not mix surfels with
+/// different surroundings.
 #include "alcove/occlusion/methods/guided.h"
 
-#include "alcove/field/combine.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/voxelize.h"
@@ -31,14 +30,14 @@ struct Quads {
         triangles.insert(triangles.end(), {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
         return *this;
     }
-    /// y = height, far to all sides.
+    /// A large square at y = height.
     Quads& add_plane(float height) { return add({-50, height, -50}, {100, 0, 0}, {0, 0, 100}); }
     RaySurface surface() const { return {positions, triangles}; }
 };
 
-std::vector<float> guided(const std::vector<Surfel>& surfels, const AnyField& field,
-                          const RaySurface& surface, const Guided& method) {
-    return bake_channels(surfels, field, surface, method, Channel::ao)[Channel::ao];
+std::vector<float> guided(const std::vector<Surfel>& surfels, const AnyField& field, const RaySurface& surface,
+                          const Guided& method) {
+    return evaluate(surfels, field, surface, method, Channel::ao)[Channel::ao];
 }
 
 /// A floor at y = 0 and a wall at x = 0, and 100 × 100 surfels on the floor within 0.2 of it.
@@ -51,8 +50,7 @@ struct Corner {
     Corner() {
         for (int i = 0; i < 10000; ++i)
             surfels.push_back(
-                {{0.002f * (static_cast<float>(i % 100) + 0.5f), 0, 0.002f * static_cast<float>(i / 100)},
-                 {0, 1, 0}});
+                {{0.002f * (static_cast<float>(i % 100) + 0.5f), 0, 0.002f * static_cast<float>(i / 100)}, {0, 1, 0}});
     }
     static double truth(const Surfel& surfel) {
         const double u = std::min(1.0, double(surfel.position.x) / radius);
@@ -71,9 +69,8 @@ TEST(Guided, FewSharedRaysAreWorthTenTimesAsManyAlone) {
     for (const int rays : {1, 2, 4}) {
         const Guided method{.radius = Corner::radius, .rays = rays};
         const auto alone =
-            bake(corner.surfels, corner.surface, Exact{.radius = Corner::radius, .rays = 10 * rays});
-        EXPECT_LT(corner.rmse(guided(corner.surfels, corner.field, corner.surface, method)),
-                  corner.rmse(alone))
+            evaluate_ao(corner.surfels, corner.surface, Exact{.radius = Corner::radius, .rays = 10 * rays});
+        EXPECT_LT(corner.rmse(guided(corner.surfels, corner.field, corner.surface, method)), corner.rmse(alone))
             << rays;
     }
 }
@@ -99,8 +96,8 @@ TEST(Guided, TendsToExact) {
     for (const Surfel& surfel : surfels)
         positions.push_back(surfel.position);
     const RaySurface surface(positions, real.triangles);
-    const auto truth = bake(surfels, surface, Exact{.radius = 0.1f, .rays = 4096, .seed = 9});
-    // A field that tells neighbours nothing: the worst of guides.
+    const auto truth = evaluate_ao(surfels, surface, Exact{.radius = 0.1f, .rays = 4096, .seed = 9});
+    // A field without information about the neighbours: the worst case.
     const AnyField nothing(Plane{{0, 1, 0}, -10.0f});
     double previous = 1.0;
     for (const int rays : {4, 32, 256, 1024}) {
@@ -118,17 +115,16 @@ TEST(Guided, TendsToExact) {
 TEST(Guided, WhatIsTheSameEverywhereStays) {
     std::vector<Surfel> surfels;
     for (int i = 0; i < 3000; ++i)
-        surfels.push_back(
-            {{0.001f * static_cast<float>(i % 60), 0, 0.001f * static_cast<float>(i / 60)}, {0, 1, 0}});
+        surfels.push_back({{0.001f * static_cast<float>(i % 60), 0, 0.001f * static_cast<float>(i / 60)}, {0, 1, 0}});
     for (const float ao : guided(surfels, Plane{}, Quads{}.add_plane(0).surface(), {.rays = 2}))
         EXPECT_NEAR(ao, 1.0f, 1e-5f);
-    for (const float ao : guided(surfels, Plane{}, Quads{}.add_plane(0).add_plane(0.01f).surface(),
-                                 {.radius = 100.0f, .rays = 2}))
+    for (const float ao :
+         guided(surfels, Plane{}, Quads{}.add_plane(0).add_plane(0.01f).surface(), {.radius = 100.0f, .rays = 2}))
         EXPECT_NEAR(ao, 0.0f, 1e-5f);
 }
 
-/// A plate as thin as half the spacing of its surfels, 0.02 above the floor: its upper side is open, its lower
-/// one sees beyond the radius only along the gap, where cos θ < 0.02/R: (0.02/R)² of all.
+/// A plate of half the spacing of its surfels, 0.02 above the floor. Its upper side is open. Its lower side is open
+/// only along the gap, where cos θ < 0.02/R: a share of (0.02/R)².
 TEST(Guided, NothingLeaksThroughAThinPlate) {
     constexpr float thickness = 5e-4f, gap = 0.02f, radius = 0.1f;
     const RaySurface surface = Quads{}.add_plane(0).add_plane(gap).add_plane(gap + thickness).surface();
@@ -136,8 +132,7 @@ TEST(Guided, NothingLeaksThroughAThinPlate) {
     std::vector<Surfel> surfels;
     for (int i = 0; i < 10000; ++i) {
         const float x = 0.001f * static_cast<float>(i / 2 % 70), z = 0.001f * static_cast<float>(i / 140);
-        surfels.push_back(i % 2 ? Surfel{{x, gap + thickness, z}, {0, 1, 0}}
-                                : Surfel{{x, gap, z}, {0, -1, 0}});
+        surfels.push_back(i % 2 ? Surfel{{x, gap + thickness, z}, {0, 1, 0}} : Surfel{{x, gap, z}, {0, -1, 0}});
     }
     const std::vector<float> ao = guided(surfels, field, surface, {.radius = radius, .rays = 4});
     double below = 0.0;
@@ -149,7 +144,7 @@ TEST(Guided, NothingLeaksThroughAThinPlate) {
     EXPECT_NEAR(below, (gap / radius) * (gap / radius), 0.005);
 }
 
-/// The same through a grid whose voxel is twice the plate: neither side of it may take from the other.
+/// The same with a grid whose voxel is twice the thickness of the plate: the sides must not influence each other.
 TEST(Guided, NothingLeaksThroughAPlateOfHalfAVoxel) {
     constexpr std::uint32_t quads = 80;
     constexpr double voxel = 1.0 / 128, gap = 0.05;
@@ -161,8 +156,7 @@ TEST(Guided, NothingLeaksThroughAPlateOfHalfAVoxel) {
                 mesh.positions.emplace_back(double(i) / quads - 0.5, height, double(j) / quads - 0.5);
         for (std::uint32_t i = 0; i < quads; ++i)
             for (std::uint32_t j = 0; j < quads; ++j) {
-                const std::uint32_t a = first + i * (quads + 1) + j, b = a + 1, c = b + quads + 1,
-                                    d = a + quads + 1;
+                const std::uint32_t a = first + i * (quads + 1) + j, b = a + 1, c = b + quads + 1, d = a + quads + 1;
                 if (up)
                     mesh.add_face(std::array{a, b, c, d});
                 else
@@ -182,7 +176,7 @@ TEST(Guided, NothingLeaksThroughAPlateOfHalfAVoxel) {
     const RaySurface surface(positions, triangles);
     const LevelStack field(voxelize(mesh, triangles, {.grid = {.radius = 0.1f, .voxel = float(voxel)}}));
     const std::vector<float> ao = guided(surfels, field, surface, {.radius = 0.1f, .rays = 4});
-    const std::vector<float> exact = bake(surfels, surface, Exact{.radius = 0.1f, .rays = 1024});
+    const std::vector<float> exact = evaluate_ao(surfels, surface, Exact{.radius = 0.1f, .rays = 1024});
     double below = 0.0;
     int count = 0;
     for (std::size_t i = surfels.size() / 3; i < surfels.size(); ++i) {
@@ -199,28 +193,25 @@ TEST(Guided, NothingLeaksThroughAPlateOfHalfAVoxel) {
     EXPECT_NEAR(below / count, 0.0, 0.02);
 }
 
-/// The open ground around a slot, and the slot's dark walls, share an edge of a right angle.
+/// Open ground and the dark walls of a slot meet in a right-angled edge.
 TEST(Guided, NothingLeaksAroundASharpEdge) {
     constexpr float half = 0.04f;
     Quads quads;
     quads.add({-50, 0, -50}, {50 - half, 0, 0}, {0, 0, 100}).add({half, 0, -50}, {50, 0, 0}, {0, 0, 100});
     for (const float x : {-half, half})
         quads.add({x, 0, -50}, {0, -1, 0}, {0, 0, 100});
-    const Union field(Cuboid{{-half - 25, -0.5f, 0}, {25, 0.5f, 50}},
-                      Cuboid{{half + 25, -0.5f, 0}, {25, 0.5f, 50}});
+    const Union field(Cuboid{{-half - 25, -0.5f, 0}, {25, 0.5f, 50}}, Cuboid{{half + 25, -0.5f, 0}, {25, 0.5f, 50}});
     std::vector<Surfel> surfels;
     for (int i = 0; i < 8000; ++i) {
-        const float along = 0.0005f * static_cast<float>(i / 2 % 40),
-                    z = 0.0005f * static_cast<float>(i / 80);
-        surfels.push_back(i % 2 ? Surfel{{half + along, 0, z}, {0, 1, 0}}
-                                : Surfel{{half, -along, z}, {-1, 0, 0}});
+        const float along = 0.0005f * static_cast<float>(i / 2 % 40), z = 0.0005f * static_cast<float>(i / 80);
+        surfels.push_back(i % 2 ? Surfel{{half + along, 0, z}, {0, 1, 0}} : Surfel{{half, -along, z}, {-1, 0, 0}});
     }
     const std::vector<float> ao = guided(surfels, field, quads.surface(), {.radius = 0.1f, .rays = 4});
-    const std::vector<float> exact = bake(surfels, quads.surface(), Exact{.radius = 0.1f, .rays = 1024});
-    std::array<double, 40> bias{}; // of the walls, by depth
+    const std::vector<float> exact = evaluate_ao(surfels, quads.surface(), Exact{.radius = 0.1f, .rays = 1024});
+    std::array<double, 40> bias{}; // bias on the walls, by depth
     for (std::size_t i = 0; i < ao.size(); ++i) {
         if (i % 2) {
-            EXPECT_NEAR(ao[i], 1.0f, 0.002f); // the share of the model, which has walls to explain too
+            EXPECT_NEAR(ao[i], 1.0f, 0.002f); // the model also has to fit the walls
         } else {
             bias[i / 2 % 40] += (ao[i] - exact[i]) / 100.0;
         }
@@ -237,10 +228,9 @@ TEST(Guided, SharesBentNormalsToo) {
     };
     const ChannelSet wanted = Channel::ao | Channel::bent_normal;
     const float radius = Corner::radius;
-    const auto truth = bake_channels(corner.surfels, corner.surface, Exact{radius, 1024, 3}, wanted);
-    const auto alone = bake_channels(corner.surfels, corner.surface, Exact{radius, 16}, wanted);
-    const auto shared =
-        bake_channels(corner.surfels, corner.field, corner.surface, Guided{radius, 4}, wanted);
+    const auto truth = evaluate(corner.surfels, corner.surface, Exact{radius, 1024, 3}, wanted);
+    const auto alone = evaluate(corner.surfels, corner.surface, Exact{radius, 16}, wanted);
+    const auto shared = evaluate(corner.surfels, corner.field, corner.surface, Guided{radius, 4}, wanted);
     double error_alone = 0.0, error_shared = 0.0;
     for (std::size_t i = 0; i < corner.surfels.size(); ++i) {
         EXPECT_NEAR(glm::length(bent(shared, i)), 1.0f, 1e-5f);
@@ -252,7 +242,7 @@ TEST(Guided, SharesBentNormalsToo) {
 
 TEST(Guided, DependsOnNeitherOrderNorThreads) {
     Corner corner;
-    // Seams: places that are there twice, with the same normal and with another.
+    // Seams: duplicate positions, with the same normal and with a different one.
     for (std::size_t i = 0; i < 500; ++i) {
         corner.surfels.push_back(corner.surfels[7 * i]);
         corner.surfels.push_back({corner.surfels[5 * i].position, glm::normalize(Vec3(0.1f, 1, 0))});
@@ -276,14 +266,13 @@ TEST(Guided, TakesFewSurfelsAndNone) {
     const Corner corner;
     EXPECT_TRUE(guided({}, corner.field, corner.surface, {}).empty());
     EXPECT_EQ(guided({{{0, 0, 0}, {0, 0, 0}}}, corner.field, corner.surface, {}), std::vector<float>{1.0f});
-    const std::vector<Surfel> three{
-        {{0.5f, 0, 0}, {0, 1, 0}}, {{0.6f, 0, 0}, {0, 1, 0}}, {{0.6f, 0, 0}, {0, 1, 0}}};
+    const std::vector<Surfel> three{{{0.5f, 0, 0}, {0, 1, 0}}, {{0.6f, 0, 0}, {0, 1, 0}}, {{0.6f, 0, 0}, {0, 1, 0}}};
     for (const float ao : guided(three, corner.field, corner.surface, {}))
         EXPECT_NEAR(ao, 1.0f, 1e-6f);
 }
 
 TEST(RecurrencePoint, IsLowDiscrepancyInEveryRun) {
-    // Of any 64 in a row, every half of the square in u or v has 32 ± 3.
+    // Of any 64 consecutive points, each half of the square in u or v has 32 ± 3.
     for (std::uint64_t first = 0; first < 100000; first += 997) {
         int left = 0, low = 0;
         for (std::uint64_t i = first; i < first + 64; ++i) {

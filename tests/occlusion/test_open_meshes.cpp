@@ -1,9 +1,9 @@
-/// Surfaces that bound no solid: open, nested, inside out. What matters is that occlusion outside is as right
-/// as on a closed mesh, against exact rays.
+/// Surfaces that do not bound a solid: open, nested, inside out. Compared with exact rays, occlusion must be as
+/// accurate as on a closed mesh.
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/methods/traced.h"
 #include "exact_distance.h"
 #include "real_mesh.h"
@@ -33,7 +33,7 @@ Baked bake_against_exact(const Mesh& mesh, float radius, SignChoice sign = SignC
     options.sign = sign;
     const GridStack stack = voxelize(mesh, triangles, options);
     Baked baked{stack.sign, 0.0, {}, make_surfels(mesh, triangles, frame)};
-    baked.ao = bake(baked.surfels, LevelStack(stack), Traced{.radius = radius, .rays = 256});
+    baked.ao = evaluate_ao(baked.surfels, LevelStack(stack), Traced{.radius = radius, .rays = 256});
     const test::ExactSurface exact(mesh, triangles, frame);
     std::size_t counted = 0;
     for (std::size_t i = 0; i < baked.ao.size(); ++i)
@@ -51,13 +51,13 @@ TEST(OpenMesh, SphereWithHolesIsAsRightAsTheWholeOne) {
         const Baked whole = bake_against_exact(test::sphere_mesh(4), radius);
         EXPECT_EQ(whole.sign, Sign::solid);
         for (const double missing : {0.0, 0.01, 0.2, 0.5}) {
-            // A cap of that share of the area, and one facet in any case.
+            // Removes a cap of that share of the area, and always one facet.
             const double height = 1.0 - 2.0 * missing;
             bool first = true;
             const auto keep = [&](const Vec3d& p) { return !std::exchange(first, false) && p.z < height; };
             const Baked open = bake_against_exact(test::sphere_mesh(4, keep), radius);
             EXPECT_EQ(open.sign, Sign::sheet);
-            fmt::print("sphere less a facet and {} %, radius {}: RMSE {:.4f}, whole {:.4f}\n", 100 * missing,
+            fmt::print("sphere without a facet and {} %, radius {}: RMSE {:.4f}, complete {:.4f}\n", 100 * missing,
                        radius, open.rmse, whole.rmse);
             EXPECT_LE(open.rmse, 1.25 * whole.rmse + 1e-3);
         }
@@ -91,7 +91,7 @@ TEST(OpenMesh, MeshWithBorder) {
     EXPECT_LE(baked.rmse, 0.05);
 }
 
-/// A shell inside another, both turned outward: the inner one sees the gap up to the outer one.
+/// A shell inside another, both oriented outward: the inner one is occluded by the outer one across the gap.
 TEST(NestedShells, AreBothKept) {
     Mesh mesh = test::sphere_mesh(5);
     const std::size_t outer = mesh.vertex_count();
@@ -107,7 +107,7 @@ TEST(NestedShells, AreBothKept) {
         EXPECT_GT(wide.ao[v], 0.98f);
 }
 
-/// Exact rays see the inside of a shell turned inside out as a cavity.
+/// A shell that is inside out is a cavity, also for exact rays.
 TEST(InsideOut, TheCavityIsSeenFromInside) {
     Mesh mesh = test::sphere_mesh(5), inverted;
     inverted.positions = mesh.positions;
@@ -115,7 +115,7 @@ TEST(InsideOut, TheCavityIsSeenFromInside) {
         std::vector<std::uint32_t> face(mesh.face(f).rbegin(), mesh.face(f).rend());
         inverted.add_face(face);
     }
-    const float radius = 0.3f; // the sphere's own is 0.5/√3
+    const float radius = 0.3f; // the radius of the sphere is 0.5/√3
     const Baked baked = bake_against_exact(inverted, radius);
     const double expected = 1.0 - std::pow(radius * std::sqrt(3.0), 2);
     EXPECT_EQ(baked.sign, Sign::sheet);

@@ -1,4 +1,4 @@
-/// Every estimator against the formula of its document, on the documents' scene and on open planes.
+/// Every reference estimator against its published formula, on the reference scene and on open planes.
 #include "alcove/occlusion/methods/reference/classic.h"
 #include "alcove/occlusion/methods/reference/decay.h"
 #include "alcove/occlusion/methods/reference/exponential.h"
@@ -13,7 +13,7 @@
 #include "alcove/field/field.h"
 #include "alcove/field/primitives.h"
 #include "alcove/occlusion/catalog.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "reference_scene.h"
 #include "shapes.h"
 #include "transcriptions.h"
@@ -31,32 +31,30 @@ namespace {
 using test::Axes;
 using test::Distance;
 
-/// An estimator at the radius of its document, and its document.
+/// An estimator at its reference radius, and its formula.
 struct Formula {
     std::string name;
-    /// At a multiple of that radius.
+    /// Evaluates it at `times` the reference radius.
     std::function<std::vector<float>(std::span<const Surfel>, const AnyField&, float times)> bake;
     std::function<double(const Distance&, const Vec3d&, const Vec3d&)> transcription;
-    std::optional<double> open = 1.0; ///< on an open plane; none where it depends on the plane
+    std::optional<double> open = 1.0; ///< value on an open plane; empty if it depends on the plane
 };
 
-/// The channel of an estimator, whose radius is that of its document.
+/// Evaluates one channel of an estimator that is set to its reference radius.
 template <class E>
 auto baked_by(E estimator, Channel channel = Channel::ao) {
     return [=](std::span<const Surfel> surfels, const AnyField& field, float times) {
         E scaled = estimator;
         scaled.radius *= times;
-        return std::move(bake_channels(surfels, field, scaled, channel)[channel]);
+        return std::move(evaluate(surfels, field, scaled, channel)[channel]);
     };
 }
 
-/// A transcription at these constants.
+/// A transcription with its constants bound.
 template <class... Constants>
 auto of(double (*transcription)(const Distance&, const Vec3d&, const Vec3d&, Constants...),
         std::type_identity_t<Constants>... constants) {
-    return [=](const Distance& d, const Vec3d& p, const Vec3d& n) {
-        return transcription(d, p, n, constants...);
-    };
+    return [=](const Distance& d, const Vec3d& p, const Vec3d& n) { return transcription(d, p, n, constants...); };
 }
 
 std::vector<Formula> formulas() {
@@ -64,19 +62,15 @@ std::vector<Formula> formulas() {
         {"classic", baked_by(Classic{.radius = 0.13f}), of(test::classic)},
         {"convexity", baked_by(Classic{.radius = 0.13f}, Channel::convexity), of(test::convexity), 0.5},
         {"exponential", baked_by(Exponential{.radius = 1.0f}), of(test::exponential, 1.0)},
-        {"exponential_factor", baked_by(Exponential{.radius = 1.0f, .factor = 0.6f}),
-         of(test::exponential, 0.6), 0.6},
+        {"exponential_factor", baked_by(Exponential{.radius = 1.0f, .factor = 0.6f}), of(test::exponential, 0.6), 0.6},
         {"decay", baked_by(Decay{.radius = 5 * 0.2f}), of(test::decay, 0.2)},
         {"decay_linear", baked_by(Decay{.radius = 5 * 0.2f, .linear = true}), of(test::decay_linear, 0.2)},
         {"multiplicative", baked_by(Multiplicative{.radius = 0.6f}), of(test::multiplicative)},
         {"multiscale", baked_by(Multiscale{.radius = 6.4f}), of(test::multiscale)},
-        {"multiscale_short", baked_by(Multiscale{.radius = 6.4f}, Channel::ao_short),
-         of(test::multiscale_short)},
-        {"multiscale_long", baked_by(Multiscale{.radius = 6.4f}, Channel::ao_long),
-         of(test::multiscale_long)},
+        {"multiscale_short", baked_by(Multiscale{.radius = 6.4f}, Channel::ao_short), of(test::multiscale_short)},
+        {"multiscale_long", baked_by(Multiscale{.radius = 6.4f}, Channel::ao_long), of(test::multiscale_long)},
         {"jittered", baked_by(Jittered{.radius = 4.0f}), of(test::jittered)},
-        {"jittered_falloff", baked_by(Jittered{.radius = 1.0f, .falloff_form = true}),
-         of(test::jittered_falloff, 1.0)},
+        {"jittered_falloff", baked_by(Jittered{.radius = 1.0f, .falloff_form = true}), of(test::jittered_falloff, 1.0)},
         {"jittered_twice_falloff", baked_by(Jittered{.radius = 1.0f, .falloff_form = true, .falloff = 2.0f}),
          of(test::jittered_falloff, 2.0)},
         {"hemisphere_random",
@@ -111,7 +105,7 @@ std::vector<Formula> formulas() {
 class Documents : public testing::TestWithParam<Formula> {};
 
 TEST_P(Documents, TheEstimatorIsTheFormulaOnTheirScene) {
-    const test::DocumentsScene scene;
+    const test::ReferenceScene scene;
     const Distance d = [&](const Vec3d& x) { return scene.distance(x); };
     const std::vector<Surfel> surfels = scene.surfels(1000);
     const std::vector<float> values = GetParam().bake(surfels, scene.field, 1.0f);
@@ -120,12 +114,12 @@ TEST_P(Documents, TheEstimatorIsTheFormulaOnTheirScene) {
         expected.push_back(GetParam().transcription(d, s.position, s.normal));
     for (std::size_t i = 0; i < surfels.size(); ++i)
         EXPECT_NEAR(values[i], expected[i], 1e-5);
-    const auto [least, most] = std::minmax_element(expected.begin(), expected.end());
-    EXPECT_GT(*most - *least, 0.2) << "the points must reach the creases for the test to mean anything";
+    const auto [min, max] = std::minmax_element(expected.begin(), expected.end());
+    EXPECT_GT(*max - *min, 0.2) << "the points must reach the creases for the test to be meaningful";
 }
 
 TEST_P(Documents, NeitherDependsOnTheScale) {
-    const test::DocumentsScene scene;
+    const test::ReferenceScene scene;
     const std::vector<Surfel> surfels = scene.surfels(1000);
     const std::vector<float> unit = GetParam().bake(surfels, scene.field, 1.0f);
     for (const float scale : {1e-3f, 1e3f}) {
@@ -139,7 +133,7 @@ TEST_P(Documents, NeitherDependsOnTheScale) {
     }
 }
 
-/// Unit vectors in all directions, the axes among them.
+/// Unit vectors in all directions, including the axes.
 std::vector<Vec3> orientations() {
     std::vector<Vec3> all{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     for (int i = 0; i < 500; ++i) {
@@ -160,19 +154,19 @@ TEST_P(Documents, OnAnOpenPlaneItIsWhatTheFormulaSays) {
     }
 }
 
-/// What the documents print of their own formulas holds for most planes in world axes, not for all.
+/// The ranges printed with the reference formulas are correct for most planes, but not for all.
 TEST(OpenPlane, TheHemisphereMethodsAreAsThePrintedRangesSay) {
     struct Range {
-        double from, to;    ///< as printed
-        double least, most; ///< of any plane
+        double from, to; ///< as printed
+        double min, max; ///< over all planes
     };
     const auto expect = [](const auto& estimator, const Range& range) {
         double sum = 0.0;
         int inside = 0, count = 0;
         for (const Vec3& n : orientations()) {
-            const double ao = bake(std::vector<Surfel>{{{0, 0, 0}, n}}, Plane{n, 0.0f}, estimator).front();
-            EXPECT_GE(ao, range.least);
-            EXPECT_LE(ao, range.most);
+            const double ao = evaluate_ao(std::vector<Surfel>{{{0, 0, 0}, n}}, Plane{n, 0.0f}, estimator).front();
+            EXPECT_GE(ao, range.min);
+            EXPECT_LE(ao, range.max);
             sum += ao;
             inside += ao >= range.from && ao <= range.to;
             ++count;
@@ -194,10 +188,9 @@ TEST(OpenPlane, IsAllButWhiteAsAVoxelizedPlate) {
         for (int y = -20; y <= 20; ++y)
             for (const double side : {1.0, -1.0})
                 surfels.push_back({plate.frame.to_unit({0.0151 * x, 0.0147 * y, 0.02 * side}), {0, 0, side}});
-    for (const char* name :
-         {"classic", "exponential", "decay", "multiplicative", "multiscale", "jittered", "traced"}) {
+    for (const char* name : {"classic", "exponential", "decay", "multiplicative", "multiscale", "jittered", "traced"}) {
         const ChannelValues values =
-            bake_channels(surfels, AnyField(plate.field), find_method(name), {.radius = 0.1f}, Channel::ao);
+            evaluate(surfels, AnyField(plate.field), find_method(name), {.radius = 0.1f}, Channel::ao);
         EXPECT_GE(*std::ranges::min_element(values[Channel::ao]), 0.995f) << name;
     }
 }

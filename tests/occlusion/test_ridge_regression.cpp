@@ -15,7 +15,7 @@ std::vector<float> random_values(std::size_t count, std::uint32_t seed) {
 }
 
 TEST(RidgeRegression, FindsTheFunctionBehindNoisyValues) {
-    for (const std::size_t count : {900u, 100'000u}) { // all of them, and more than it looks at
+    for (const std::size_t count : {900u, 100'000u}) { // fewer and more than the fit uses
         const std::vector<float> a = random_values(count, 1), b = random_values(count, 2),
                                  noise = random_values(count, 3);
         const auto truth = [&](std::size_t i) {
@@ -47,8 +47,7 @@ TEST(RidgeRegression, OfWhatIsTheSameEverywhereIsThat) {
     const std::vector<float> feature(100, 0.25f);
     const std::array<const float*, 1> features{feature.data()};
     std::vector<float> predicted(100);
-    fit_quadratic_model(features, std::vector<float>(100, 0.75f), 100)
-        .predict(features, 0, 100, predicted.data());
+    fit_quadratic_model(features, std::vector<float>(100, 0.75f), 100).predict(features, 0, 100, predicted.data());
     for (const float value : predicted)
         EXPECT_NEAR(value, 0.75f, 1e-5f);
 }

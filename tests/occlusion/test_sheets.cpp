@@ -1,5 +1,5 @@
-/// Sheets stop rays however they lie in the grid: on its planes, between them, across them.
-#include "alcove/occlusion/evaluate.h"
+/// Sheets stop rays in any alignment with the grid: on its planes, between them, across them.
+#include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/methods/traced.h"
 #include "voxelized.h"
 
@@ -19,22 +19,23 @@ Vec3d tilted(const Vec3d& p, double angle) {
     return {c * q.x + s * q.z, q.y, c * q.z - s * q.x};
 }
 
-/// Two squares and, before tilting, the box from z = −below to z = gap around them: of diagonal 1, in voxels.
+/// Two parallel squares. Before tilting, the box around them reaches from z = −below to z = gap, in voxels; its
+/// diagonal is 1.
 class Pair {
   public:
-    /// `below` moves the pair in the grid, whose lowest plane touches the box.
+    /// `below` shifts the pair relative to the grid, whose lowest plane touches the box.
     Pair(double gap, double below, double tilt, bool lower_faces_up, bool upper_faces_up)
         : gap_(gap), tilt_(tilt), up_{lower_faces_up, upper_faces_up}, plates_(mesh(below), radius, voxel) {}
 
-    /// Occlusion around the middle of a square, seen from the side that `up` tells.
+    /// The ao near the middle of a square, on its upper or lower side.
     std::vector<float> ao(bool upper, bool up) const {
         std::vector<Surfel> surfels;
         const Vec3 normal(tilted({0, 0, up ? 1 : -1}, tilt_));
         for (int i = 0; i < 8; ++i)
-            surfels.push_back({plates_.frame.to_unit(tilted(
-                                   {0.0113 * (i - 4), 0.0071 * (i - 2), upper ? gap_ * voxel : 0.0}, tilt_)),
-                               normal});
-        return bake(surfels, plates_.field, Traced{.radius = radius, .rays = 1024});
+            surfels.push_back(
+                {plates_.frame.to_unit(tilted({0.0113 * (i - 4), 0.0071 * (i - 2), upper ? gap_ * voxel : 0.0}, tilt_)),
+                 normal});
+        return evaluate_ao(surfels, plates_.field, Traced{.radius = radius, .rays = 1024});
     }
 
     bool faces_up(bool upper) const { return up_[upper]; }
@@ -70,14 +71,15 @@ class Pair {
     test::Voxelized plates_;
 };
 
-/// Between faces ao = (gap/R)², as the squares are wider than the radius. From the back of one, rays start up to two
-/// voxels away from it; at the back of one, they end where its negative layer does at the soonest.
+/// Between the squares ao = (gap/R)², because they are wider than the radius. Rays from the back of a square start up
+/// to two voxels away from it. Rays toward the back of a square end at the far side of its negative layer at the
+/// earliest.
 void expect_no_leaks(double gap, double below, double tilt) {
     for (const bool lower_up : {true, false})
         for (const bool upper_up : {true, false}) {
             const Pair pair(gap, below, tilt, lower_up, upper_up);
-            SCOPED_TRACE(testing::Message() << "gap " << gap << " below " << below << " tilt " << tilt
-                                            << " up " << lower_up << upper_up);
+            SCOPED_TRACE(testing::Message()
+                         << "gap " << gap << " below " << below << " tilt " << tilt << " up " << lower_up << upper_up);
             ASSERT_TRUE(pair.two_sided());
             const auto open = [&](double voxels) {
                 const double share = std::max(voxels, 0.0) * voxel / (radius * pair.diagonal());
@@ -86,7 +88,7 @@ void expect_no_leaks(double gap, double below, double tilt) {
             for (const bool upper : {false, true}) {
                 const bool from_front = pair.faces_up(upper) == !upper;
                 const bool to_front = pair.faces_up(!upper) == upper;
-                // A tenth of a voxel where rays start, and as much for interpolation between tilted planes.
+                // A tenth of a voxel at the ray origins, and as much for interpolation between tilted planes.
                 constexpr double slack = 0.25;
                 const double early = slack + (from_front ? 0.0 : 2.0) + (to_front ? 0.0 : 1.9);
                 for (const float ao : pair.ao(upper, !upper)) {
@@ -117,7 +119,7 @@ TEST(SheetPairs, StopRaysAtAnyTilt) {
         expect_no_leaks(8.0, 0.0, tilt);
 }
 
-/// Nothing faces the sides of a lone square, off its rim, on a plane of the grid or off it.
+/// A single square does not occlude itself on either side, on a plane of the grid or between planes.
 TEST(SheetPairs, ALoneSquareIsOpenOnBothSides) {
     for (const double z : {0.0, 0.3, -1.7}) {
         Mesh mesh;
@@ -129,7 +131,7 @@ TEST(SheetPairs, ALoneSquareIsOpenOnBothSides) {
             std::vector<Surfel> surfels;
             for (int i = -9; i <= 9; ++i)
                 surfels.push_back({plate.frame.to_unit({0.1 * i, 0.07 * i, z}), {0, 0, up}});
-            for (const float ao : bake(surfels, plate.field, Traced{.radius = radius, .rays = 256}))
+            for (const float ao : evaluate_ao(surfels, plate.field, Traced{.radius = radius, .rays = 256}))
                 EXPECT_EQ(ao, 1.0f);
         }
     }

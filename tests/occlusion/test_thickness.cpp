@@ -1,8 +1,7 @@
 #include "alcove/occlusion/methods/thickness.h"
 
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "shapes.h"
 #include "voxelized.h"
 
@@ -13,7 +12,7 @@ namespace {
 
 template <class F>
 std::vector<float> thickness(const std::vector<Surfel>& surfels, const F& field, float radius) {
-    return bake_channels(surfels, field, Thickness{.radius = radius}, Channel::thickness)[Channel::thickness];
+    return evaluate(surfels, field, Thickness{.radius = radius}, Channel::thickness)[Channel::thickness];
 }
 
 TEST(Thickness, OfExactShapes) {
@@ -34,16 +33,16 @@ TEST(Thickness, IsOfTheFirstPlateWhereMoreStandBehind) {
         }
 }
 
-/// A plate seen from points of its top, away from the rim, off the voxels' planes.
+/// A plate measured at points away from its rim, not aligned with the planes of the grid.
 class ThicknessOfPlates : public testing::TestWithParam<double> {};
 
 TEST_P(ThicknessOfPlates, IsWithinAVoxel) {
     constexpr float voxel = 1.0f / 64, radius = 0.2f;
-    // In units of the diagonal, but for what the thickness adds to it.
+    // In units of the diagonal, neglecting the contribution of the thickness to it.
     const double thick = GetParam() * voxel;
     const double half = 0.5 / std::sqrt(2.0);
     const Mesh solid = test::box_mesh({half, half, thick / 2}, 1);
-    // Two parallel sheets, the plate without its rim.
+    // Two parallel sheets: the plate without its rim.
     Mesh sheets;
     sheets.positions = solid.positions;
     for (std::size_t f = 0; f < solid.face_count(); ++f) {
@@ -56,25 +55,21 @@ TEST_P(ThicknessOfPlates, IsWithinAVoxel) {
     for (const Mesh& mesh : {solid, sheets}) {
         SCOPED_TRACE(mesh.face_count() == 6 ? "solid" : "sheets");
         if (mesh.face_count() == 2 && GetParam() < 1.9)
-            continue; // not seen, as the header says
+            continue; // missed, as documented in the header
         const test::Voxelized plate(mesh, radius, voxel);
         EXPECT_EQ(plate.field.two_sided(), mesh.face_count() == 2);
         std::vector<Surfel> surfels;
         for (int i = 0; i < 20; ++i)
             for (const double side : {1.0, -1.0})
                 surfels.push_back(
-                    {plate.frame.to_unit({0.0213 * (i - 10), 0.0107 * (i - 5), side * thick / 2}),
-                     {0, 0, side}});
+                    {plate.frame.to_unit({0.0213 * (i - 10), 0.0107 * (i - 5), side * thick / 2}), {0, 0, side}});
         for (const float found : thickness(surfels, plate.field, radius))
             EXPECT_NEAR(found, thick / plate.frame.diagonal, voxel);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Voxels, ThicknessOfPlates,
-                         testing::Values(1.5, 2.3, 2.6, 3.0, 3.3, 4.4, 5.2, 6.0, 10.0, 10.5),
-                         [](const auto& voxels) {
-                             return std::to_string(static_cast<int>(voxels.param * 100));
-                         });
+INSTANTIATE_TEST_SUITE_P(Voxels, ThicknessOfPlates, testing::Values(1.5, 2.3, 2.6, 3.0, 3.3, 4.4, 5.2, 6.0, 10.0, 10.5),
+                         [](const auto& voxels) { return std::to_string(static_cast<int>(voxels.param * 100)); });
 
 TEST(Thickness, OfAVoxelizedSphereIsItsDiameter) {
     const test::Voxelized sphere(test::sphere_mesh(5), 0.7f, 1.0f / 100);

@@ -1,11 +1,9 @@
 /// traced against closed forms on exact fields: cosine-weighted visibility is a configuration factor of a
-/// disc, a sphere cap or a half plane (J. R. Howell, "A Catalog of Radiation Heat Transfer Configuration
-/// Factors", 1982).
+/// disc, a sphere cap or a half plane (Howell 1982).
 #include "alcove/occlusion/methods/traced.h"
 
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +21,7 @@ const float radii[] = {0.3f, 1.0f, 2.5f, infinite};
 template <class F>
 double traced(const F& field, const Vec3& p, float radius, bool cosine_weighted = true) {
     const std::vector<Surfel> surfels{{p, {0, 1, 0}}};
-    return bake(surfels, field, Traced{.radius = radius, .rays = 4096, .cosine_weighted = cosine_weighted})
+    return evaluate_ao(surfels, field, Traced{.radius = radius, .rays = 4096, .cosine_weighted = cosine_weighted})
         .front();
 }
 
@@ -54,8 +52,7 @@ TEST(Traced, FloorUnderASphere) {
             for (const float s : {0.0f, 0.8f, 2.0f})
                 for (const float radius : radii) {
                     const Union field(Plane{}, Sphere{{s, h, 0}, a});
-                    const double d2 = double(h) * h + double(s) * s, d = std::sqrt(d2), a2 = double(a) * a,
-                                 r = radius;
+                    const double d2 = double(h) * h + double(s) * s, d = std::sqrt(d2), a2 = double(a) * a, r = radius;
                     double share = 1.0 - std::pow((r * r + d2 - a2) / (2 * r * d), 2);
                     if (r >= std::sqrt(d2 - a2))
                         share = a2 / d2;
@@ -66,7 +63,7 @@ TEST(Traced, FloorUnderASphere) {
                 }
 }
 
-/// A round pit of radius a and depth `depth` in the ground, its floor at y = 0: exact in the air.
+/// A round pit of radius a and depth `depth` in the ground, with its floor at y = 0. Distances in the air are exact.
 struct Pit {
     float a, depth;
 
@@ -83,14 +80,12 @@ TEST(Traced, FloorOfAPit) {
         for (const float depth : {0.2f, 1.0f, 2.0f})
             for (const float radius : radii) {
                 const double a2 = double(a) * a, r = radius;
-                const double expected =
-                    std::min(1.0, std::max(a2 / (a2 + double(depth) * depth), a2 / (r * r)));
-                EXPECT_NEAR(traced(Pit{a, depth}, {0, 0, 0}, radius), expected, 0.01)
-                    << a << " " << depth << " " << r;
+                const double expected = std::min(1.0, std::max(a2 / (a2 + double(depth) * depth), a2 / (r * r)));
+                EXPECT_NEAR(traced(Pit{a, depth}, {0, 0, 0}, radius), expected, 0.01) << a << " " << depth << " " << r;
             }
 }
 
-/// The air inside a sphere; solid outside.
+/// Air inside a sphere, solid outside.
 struct Cavity {
     float a;
     float map(const Vec3& p) const { return a - glm::length(p); }
@@ -115,16 +110,15 @@ TEST(Traced, DependsOnThePlaceAndTheSeedAlone) {
     const Union field(Plane{}, Plane{{1, 0, 0}, 0.0f});
     std::vector<Surfel> surfels;
     for (int i = 0; i < 5000; ++i)
-        surfels.push_back(
-            {{0.001f * static_cast<float>(i % 977), 0, 0.01f * static_cast<float>(i)}, {0, 1, 0}});
+        surfels.push_back({{0.001f * static_cast<float>(i % 977), 0, 0.01f * static_cast<float>(i)}, {0, 1, 0}});
     const Traced estimator{.radius = 0.5f, .rays = 8};
-    const std::vector<float> ao = bake(surfels, field, estimator);
+    const std::vector<float> ao = evaluate_ao(surfels, field, estimator);
     const std::vector<Surfel> reversed(surfels.rbegin(), surfels.rend());
-    const std::vector<float> backward = bake(reversed, field, estimator);
+    const std::vector<float> backward = evaluate_ao(reversed, field, estimator);
     EXPECT_TRUE(std::equal(ao.begin(), ao.end(), backward.rbegin()));
     const ThreadLimit one(1);
-    EXPECT_EQ(bake(surfels, field, estimator), ao);
-    EXPECT_NE(bake(surfels, field, Traced{.radius = 0.5f, .rays = 8, .seed = 1}), ao);
+    EXPECT_EQ(evaluate_ao(surfels, field, estimator), ao);
+    EXPECT_NE(evaluate_ao(surfels, field, Traced{.radius = 0.5f, .rays = 8, .seed = 1}), ao);
 }
 
 }

@@ -30,7 +30,7 @@ std::vector<Triangle> halves(const std::vector<TrianglePair>& pairs) {
     return triangles;
 }
 
-/// A strip of quads, among whose triangles are doubles and a third one on an edge.
+/// A strip of quads, with duplicate triangles and a third triangle on one edge.
 TEST(TrianglePairs, HoldEveryTriangleOnce) {
     std::vector<Vec3> positions(40, Vec3(0.0f));
     std::vector<Triangle> triangles;

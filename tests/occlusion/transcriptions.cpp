@@ -21,7 +21,7 @@ double clamp(double x) {
     return std::clamp(x, 0.0, 1.0);
 }
 
-/// T. Duff et al., "Building an Orthonormal Basis, Revisited" (2017), listing 3.
+/// Listing 3 of (Duff et al. 2017).
 Vec3d around(const Vec3d& n, const Vec3d& local) {
     const double sign = std::copysign(1.0, n.z), a = -1.0 / (sign + n.z), b = n.x * n.y * a;
     const Vec3d b1(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), b2(b, sign + n.y * n.y * a, -n.y);
@@ -141,8 +141,7 @@ double hemisphere_random(const Distance& d, const Vec3d& p, const Vec3d& n, Axes
         const double h = 0.01 + 4.0 * std::pow(i / 31.0, 2.0), x = seed + 13.1 * i;
         const double theta = fract(std::sin(x) * 43758.5453) * 3.14159;
         const double phi = fract(std::sin(x + 1.0) * 22578.1459) * 6.2831;
-        const Vec3d direction(std::sin(theta) * std::sin(phi), std::sin(theta) * std::cos(phi),
-                              std::cos(theta));
+        const Vec3d direction(std::sin(theta) * std::sin(phi), std::sin(theta) * std::cos(phi), std::cos(theta));
         sum += std::clamp(5.0 * d(p + h * flipped(direction, n, axes)) / h, -1.0, 1.0);
     }
     return clamp(sum / 32.0);

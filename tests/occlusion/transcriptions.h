@@ -1,5 +1,5 @@
-/// The formulas of the documents, word for word and in double: what the estimators are held against. Nothing here
-/// knows the library's own versions.
+/// Literal transcriptions of the reference formulas in double precision, to test the estimators against. Independent
+/// of the code of the library.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -11,13 +11,13 @@ namespace alcove::test {
 /// d(x) of the formulas.
 using Distance = std::function<double(const Vec3d&)>;
 
-/// Which way the directions of the hemisphere methods are brought to the normal's side.
+/// How the hemisphere methods move directions to the side of the normal.
 enum class Axes {
-    world,  ///< reversed where they point below the surface, as the documents have it
+    world,  ///< reversed if they point below the surface, as in the reference formulas
     surfel, ///< mirrored into the upper half around the normal
 };
 
-// Each gives ao at the surface point p with unit normal n, at the constants of its document.
+// Each returns its value at the surface point p with unit normal n, with the constants of the reference.
 
 double classic(const Distance& d, const Vec3d& p, const Vec3d& n);
 double convexity(const Distance& d, const Vec3d& p, const Vec3d& n);

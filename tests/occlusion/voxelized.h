@@ -1,4 +1,4 @@
-/// A mesh on its way to occlusion: surfels and a grid that knows both sides of the surface.
+/// A voxelized mesh with its surfels, for occlusion tests.
 #pragma once
 
 #include "alcove/field/level_stack.h"
@@ -11,7 +11,7 @@
 namespace alcove::test {
 
 struct Voxelized {
-    /// The inner band is as wide as the outer one, as masks of the inside need it.
+    /// The inner band is as wide as the outer one, because some channels read the inside.
     explicit Voxelized(Mesh made, float radius, float voxel = 0.0f, SignChoice sign = SignChoice::automatic)
         : mesh(std::move(made)), triangles(triangulate(mesh).triangles), frame(frame_of(mesh.box())),
           surfels(make_surfels(mesh, triangles, frame)),
@@ -20,7 +20,7 @@ struct Voxelized {
     Mesh mesh;
     std::vector<Triangle> triangles;
     Frame frame;
-    std::vector<Surfel> surfels; ///< its vertices
+    std::vector<Surfel> surfels; ///< one per vertex
     LevelStack field;
 
   private:

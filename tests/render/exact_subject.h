@@ -1,4 +1,4 @@
-/// Exact shapes in front of a camera.
+/// Renderables of exact shapes.
 #pragma once
 
 #include "alcove/render/camera.h"
@@ -6,7 +6,7 @@
 
 namespace alcove {
 
-/// Exact shapes, as if they were the unit space of a scene five times as large and elsewhere.
+/// The frame of a scene that is five times as large as its unit space, and elsewhere.
 inline const Frame frame{{10.0, -20.0, 30.0}, 5.0};
 
 inline Renderable renderable_of(AnyField field, const Vec3& low, const Vec3& high) {

@@ -1,4 +1,4 @@
-/// A folder of a test's own, gone with it.
+/// A temporary folder for one test.
 #pragma once
 
 #include <cstdlib>
@@ -9,6 +9,7 @@
 
 namespace alcove {
 
+/// Creates an empty folder and removes it at the end.
 class ScratchFolder {
   public:
     ScratchFolder() {

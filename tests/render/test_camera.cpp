@@ -16,8 +16,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 std::vector<Vec3d> corners(const Box& box) {
     std::vector<Vec3d> result;
     for (int i = 0; i < 8; ++i)
-        result.push_back(
-            {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z});
+        result.push_back({i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z});
     return result;
 }
 
@@ -28,8 +27,8 @@ double angle(const Vec3d& a, const Vec3d& b) {
 TEST(Camera, CenterRayRunsFromTheEyeToTheTarget) {
     const Vec3d eye(3.0, -2.0, 5.0), target(-1.0, 4.0, 0.5);
     const Camera camera(eye, target, {0.0, 1.0, 0.0}, 35.0, {640, 480});
-    const Vec3d way = glm::normalize(target - eye);
-    EXPECT_NEAR(glm::length(camera.direction(320.0, 240.0) - way), 0.0, 1e-14);
+    const Vec3d view = glm::normalize(target - eye);
+    EXPECT_NEAR(glm::length(camera.direction(320.0, 240.0) - view), 0.0, 1e-14);
     const Vec3d seen = camera.project(target);
     EXPECT_NEAR(seen.x, 320.0, 1e-10);
     EXPECT_NEAR(seen.y, 240.0, 1e-10);
@@ -40,15 +39,14 @@ TEST(Camera, FieldOfViewIsAcrossTheWidth) {
     for (const ImageSize size : {ImageSize{1280, 720}, ImageSize{300, 900}}) {
         const Camera camera({0.0, 0.0, 4.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 50.0, size);
         const double middle = 0.5 * size.height;
-        EXPECT_NEAR(angle(camera.direction(0.0, middle), camera.direction(size.width, middle)), 50.0 * degree,
-                    1e-12);
+        EXPECT_NEAR(angle(camera.direction(0.0, middle), camera.direction(size.width, middle)), 50.0 * degree, 1e-12);
         EXPECT_NEAR(camera.fov(), 50.0, 1e-12);
         EXPECT_NEAR(camera.screen_window_width(), 2.0 * std::tan(25.0 * degree), 1e-12);
     }
 }
 
 TEST(Camera, ImageHasUpAboveAndPixelsAreSquare) {
-    // Looking along −z with y up: +x is to the right.
+    // Looks along −z with y up, so +x is to the right.
     const Camera camera({0.0, 0.0, 10.0}, {0.0, 0.0, 0.0}, {0.0, 3.0, 0.0}, 40.0, {200, 100});
     const Vec3d right = camera.project({1.0, 0.0, 0.0}), above = camera.project({0.0, 1.0, 0.0});
     EXPECT_GT(right.x, 100.0);
@@ -61,8 +59,7 @@ TEST(Camera, ProjectingAPointOfARayGivesItsPixelBack) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> coordinate(-10.0, 10.0), share(0.0, 1.0);
     for (int i = 0; i < 200; ++i) {
-        const ImageSize size{1 + static_cast<int>(900 * share(random)),
-                             1 + static_cast<int>(900 * share(random))};
+        const ImageSize size{1 + static_cast<int>(900 * share(random)), 1 + static_cast<int>(900 * share(random))};
         const auto point = [&] { return Vec3d(coordinate(random), coordinate(random), coordinate(random)); };
         const Camera camera(point(), point(), point(), 1.0 + 160.0 * share(random), size);
         const double x = size.width * share(random), y = size.height * share(random);
@@ -124,11 +121,11 @@ TEST(AutomaticCamera, ContainsTheBoxAndFillsTheImage) {
                     }
                     EXPECT_GE(std::min(left, top), 0.049);
                     EXPECT_LE(std::max(right, bottom), 0.951);
-                    // A wide lens would have to be nearer than the nearest point.
+                    // To fill the image with a wide field of view, the eye would have to pass the nearest point.
                     if (fov <= 40.0) {
                         EXPECT_NEAR(std::max(right - left, bottom - top), 0.9, 1e-3);
                     }
-                    // From above, with up upward.
+                    // Looks from above, with `up` upward.
                     EXPECT_LT(glm::dot(camera.forward(), up), 0.0);
                     EXPECT_GT(glm::dot(camera.up(), up), 0.0);
                 }

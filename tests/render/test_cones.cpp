@@ -1,6 +1,5 @@
 #include "alcove/render/detail/cones.h"
 
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 
 #include <gtest/gtest.h>

@@ -64,19 +64,17 @@ TEST(Exr, HoldsEveryPass) {
     std::set<std::string> names;
     for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c)
         names.insert(c.name());
-    const std::set<std::string> expected{"R",   "G",   "B",    "A",    "Z",   "N.X",
-                                         "N.Y", "N.Z", "AO.R", "AO.G", "AO.B"};
+    const std::set<std::string> expected{"R", "G", "B", "A", "Z", "N.X", "N.Y", "N.Z", "AO.R", "AO.G", "AO.B"};
     EXPECT_EQ(names, expected);
 
     const auto r = channel(file, "R", image), b = channel(file, "B", image), a = channel(file, "A", image);
-    const auto z = channel(file, "Z", image), ny = channel(file, "N.Y", image),
-               nz = channel(file, "N.Z", image);
+    const auto z = channel(file, "Z", image), ny = channel(file, "N.Y", image), nz = channel(file, "N.Z", image);
     const auto ao_r = channel(file, "AO.R", image), ao_b = channel(file, "AO.B", image);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         EXPECT_NEAR(r[i], image.color[i].x, 1e-3f * image.color[i].x);
         EXPECT_NEAR(b[i], image.color[i].z, 1e-3f * image.color[i].z);
         EXPECT_EQ(a[i], image.alpha[i]);
-        EXPECT_EQ(z[i], image.depth[i]); // float: to the bit
+        EXPECT_EQ(z[i], image.depth[i]); // float: exact
         EXPECT_EQ(ny[i], image.normal[i].y);
         EXPECT_EQ(nz[i], image.normal[i].z);
         EXPECT_NEAR(ao_r[i], image.ao[i], 1e-3f * image.ao[i]);
@@ -157,7 +155,7 @@ TEST(Exr, HeaderTellsTheCamera) {
     EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("software").value(), "a program 1.2.3");
     EXPECT_EQ(header.screenWindowWidth(), 1.25f);
 
-    // The file's matrices multiply row vectors from the right; ours column vectors from the left.
+    // Matrices of the file act on row vectors; ours act on column vectors.
     const glm::dvec4 ours = description.world_to_camera * glm::dvec4(1.0, -2.0, 3.0, 1.0);
     const Imath::M44f& m = Imf::worldToCamera(header);
     for (int c = 0; c < 4; ++c)
@@ -169,8 +167,7 @@ struct Decoded {
     int width, height;
     std::vector<std::uint8_t> rgb;
     const std::uint8_t* at(int x, int y) const {
-        return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                         static_cast<std::size_t>(x))];
+        return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
     }
 };
 
@@ -208,7 +205,7 @@ TEST(Png, ShowsThePassThatIsAskedFor) {
         write_png(image, folder / "a.png", pass);
         return decode(folder / "a.png");
     };
-    // 0.214 of linear light is 0.5 in sRGB.
+    // Linear light of 0.214 is 0.5 in sRGB.
     EXPECT_EQ(pixels(Pass::beauty).rgb, (std::vector<std::uint8_t>{0, 255, 127, 255, 0, 188}));
     EXPECT_EQ(pixels(Pass::ao).rgb, (std::vector<std::uint8_t>{0, 0, 0, 127, 127, 127}));
     EXPECT_EQ(pixels(Pass::normal).rgb, (std::vector<std::uint8_t>{128, 128, 255, 0, 128, 128}));
@@ -242,7 +239,7 @@ TEST(ImageFiles, AreWrittenWholeOrNotAtAll) {
     std::size_t files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / ""))
         ++files;
-    EXPECT_EQ(files, 2u); // nothing temporary is left
+    EXPECT_EQ(files, 2u); // no temporary file is left
 }
 
 }

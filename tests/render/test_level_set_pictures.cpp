@@ -1,4 +1,4 @@
-/// Pictures of level sets beside those of the exact shapes they were made from.
+/// Images of level sets against exact images of the same shapes.
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
@@ -17,10 +17,10 @@ namespace {
 
 struct Shape {
     std::string name;
-    Mesh mesh; ///< so fine that it is the shape to a hundredth of a voxel
+    Mesh mesh; ///< fine enough to match the shape to a hundredth of a voxel
     std::function<double(const Vec3d&)> distance;
-    /// Share of the hits that may see another part of the shape, or none. Where edges are off the axes of the grid, more
-    /// rays pass between them and their rounded level set.
+    /// Allowed share of hits on another part of the shape, or misses. At edges that are not aligned with the grid, more
+    /// rays pass between the edge and its rounded level set.
     double silhouette = 0.005;
 };
 
@@ -29,7 +29,7 @@ double box_distance(const Vec3d& p, const Vec3d& half) {
     return glm::length(glm::max(q, Vec3d(0.0))) + std::fmin(std::fmax(q.x, std::fmax(q.y, q.z)), 0.0);
 }
 
-/// Off the axes of the grid.
+/// A rotation that aligns no edge with the grid.
 const glm::dquat turn = glm::angleAxis(0.7, glm::normalize(Vec3d(1.0, 2.0, 0.5)));
 
 Mesh turned(Mesh mesh) {
@@ -38,7 +38,7 @@ Mesh turned(Mesh mesh) {
     return mesh;
 }
 
-/// Two boxes of which one is beside the other and half as high, with an edge outward and one inward on top.
+/// Two adjacent boxes, one half as high as the other: a step with a convex and a concave edge.
 Mesh step_mesh() {
     const std::vector<glm::dvec2> outline{{-1, -0.5}, {1, -0.5}, {1, 0}, {0, 0}, {0, 0.5}, {-1, 0.5}};
     const auto count = static_cast<std::uint32_t>(outline.size());
@@ -60,22 +60,22 @@ Mesh step_mesh() {
 
 std::vector<Shape> shapes() {
     const Vec3d half(1.0, 0.6, 0.8);
-    return {{"sphere", test::sphere_mesh(8), [](const Vec3d& p) { return glm::length(p) - 1.0; }},
-            {"box", test::box_mesh(half, 1), [=](const Vec3d& p) { return box_distance(p, half); }},
-            {"turned_box", turned(test::box_mesh(half, 1)),
-             [=](const Vec3d& p) { return box_distance(glm::conjugate(turn) * p, half); }, 0.01},
-            {"turned_step", turned(step_mesh()),
-             [](const Vec3d& p) {
-                 const Vec3d q = glm::conjugate(turn) * p;
-                 return std::fmin(box_distance(q - Vec3d(-0.5, 0.0, 0.0), {0.5, 0.5, 0.6}),
-                                  box_distance(q - Vec3d(0.0, -0.25, 0.0), {1.0, 0.25, 0.6}));
-             },
-             0.01},
-            {"torus", torus(1200, 400),
-             [](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - 3.0, p.z) - 1.0; }}};
+    return {
+        {"sphere", test::sphere_mesh(8), [](const Vec3d& p) { return glm::length(p) - 1.0; }},
+        {"box", test::box_mesh(half, 1), [=](const Vec3d& p) { return box_distance(p, half); }},
+        {"turned_box", turned(test::box_mesh(half, 1)),
+         [=](const Vec3d& p) { return box_distance(glm::conjugate(turn) * p, half); }, 0.01},
+        {"turned_step", turned(step_mesh()),
+         [](const Vec3d& p) {
+             const Vec3d q = glm::conjugate(turn) * p;
+             return std::fmin(box_distance(q - Vec3d(-0.5, 0.0, 0.0), {0.5, 0.5, 0.6}),
+                              box_distance(q - Vec3d(0.0, -0.25, 0.0), {1.0, 0.25, 0.6}));
+         },
+         0.01},
+        {"torus", torus(1200, 400), [](const Vec3d& p) { return std::hypot(std::hypot(p.x, p.y) - 3.0, p.z) - 1.0; }}};
 }
 
-/// Of a ray of unit direction; infinite where it misses.
+/// Distance to the hit of a ray of unit direction; infinite if it misses.
 double exact_hit(const Shape& shape, const Vec3d& eye, const Vec3d& direction, double far) {
     double t = 0.0;
     for (int step = 0; step < 100000 && t < far; ++step) {
@@ -89,12 +89,12 @@ double exact_hit(const Shape& shape, const Vec3d& eye, const Vec3d& direction, d
 
 class LevelSetPicture : public testing::TestWithParam<Shape> {};
 
-/// What is seen of a shape, and how far off.
+/// Statistics of an image.
 struct Seen {
-    std::size_t hits = 0, silhouette = 0; ///< pixels; those that see another part of the shape, or none
-    double sum = 0.0;                     ///< of errors along the ray, voxels
-    double largest = 0.0;                 ///< of these, off silhouettes
-    double furthest = 0.0;                ///< of all hits, from the shape, voxels
+    std::size_t hits = 0, silhouette = 0; ///< pixels; pixels that show another part of the shape, or none
+    double sum = 0.0;                     ///< sum of errors along the rays, voxels
+    double largest = 0.0;                 ///< largest error along a ray away from silhouettes, voxels
+    double furthest = 0.0;                ///< largest distance of a hit from the shape, voxels
 };
 
 TEST_P(LevelSetPicture, ShowsTheExactShapeToAFractionOfAVoxel) {
@@ -106,7 +106,7 @@ TEST_P(LevelSetPicture, ShowsTheExactShapeToAFractionOfAVoxel) {
     const double voxel = frame.diagonal / 256.0;
     const ImageSize size{480, 360};
     Seen seen;
-    // From three quarters, each way up.
+    // A three-quarter view for each up axis.
     for (const Vec3d& up : {Vec3d(0, 1, 0), Vec3d(1, 0, 0), Vec3d(0, 0, 1)}) {
         const Camera camera = make_camera({.up = up}, shape.mesh.positions, size);
         const Image image = render(renderable, camera, {.samples = 1, .passes = Pass::depth});
@@ -136,9 +136,8 @@ TEST_P(LevelSetPicture, ShowsTheExactShapeToAFractionOfAVoxel) {
         }
     }
     const double mean = seen.sum / static_cast<double>(seen.hits);
-    std::printf("%s, 256 voxels: %zu hits, along the ray %.4f voxel on the mean and %.2f at most, off the "
-                "shape %.2f at "
-                "most; %zu pixels of the silhouette differ\n",
+    std::printf("%s, 256 voxels: %zu hits; error along the ray: mean %.4f, max %.2f voxels; max distance "
+                "from the shape: %.2f voxels; %zu pixels of the silhouette differ\n",
                 shape.name.c_str(), seen.hits, mean, seen.largest, seen.furthest, seen.silhouette);
     EXPECT_GT(seen.hits, 150000u);
     EXPECT_LE(mean, 0.05);

@@ -7,14 +7,13 @@ namespace {
 
 const Camera from_above({0, 4, 0}, {0, 0, 0}, {0, 0, 1}, 90.0, {64, 64});
 
-/// A square of half a side of 2 in the plane y = height, its value x/4 + z/8 + 1/2.
+/// A square of side 4 in the plane y = height, with the values x/4 + z/8 + 1/2.
 struct Square {
     std::vector<Vec3d> positions;
     std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};
     std::vector<float> values;
 
-    explicit Square(double height)
-        : positions{{-2, height, -2}, {2, height, -2}, {2, height, 2}, {-2, height, 2}} {
+    explicit Square(double height) : positions{{-2, height, -2}, {2, height, -2}, {2, height, 2}, {-2, height, 2}} {
         for (const Vec3d& p : positions)
             values.push_back(static_cast<float>(p.x / 4 + p.z / 8 + 0.5));
     }
@@ -27,8 +26,8 @@ TEST(Paint, InterpolatesLinearlyOverAPlane) {
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
             const auto i = static_cast<std::size_t>(64 * y + x);
-            const Vec3d way = from_above.direction(x + 0.5, y + 0.5);
-            const Vec3d p = from_above.eye() - from_above.eye().y / way.y * way;
+            const Vec3d ray = from_above.direction(x + 0.5, y + 0.5);
+            const Vec3d p = from_above.eye() - from_above.eye().y / ray.y * ray;
             const bool inside = std::fabs(p.x) < 1.99 && std::fabs(p.z) < 1.99;
             if (!inside) {
                 if (std::fabs(p.x) > 2.01 || std::fabs(p.z) > 2.01) {
@@ -52,8 +51,7 @@ TEST(Paint, ShowsTheNearestOfTwoFacesWhicheverComesFirst) {
         positions.insert(positions.end(), high.positions.begin(), high.positions.end());
         std::vector<Triangle> triangles = low.triangles;
         for (const Triangle& t : high.triangles)
-            triangles.insert(high_first ? triangles.begin() : triangles.end(),
-                             {t[0] + 4, t[1] + 4, t[2] + 4});
+            triangles.insert(high_first ? triangles.begin() : triangles.end(), {t[0] + 4, t[1] + 4, t[2] + 4});
         const std::vector<float> values{0, 0, 0, 0, 1, 1, 1, 1};
         const Image image = paint(positions, triangles, values, from_above, 1);
         EXPECT_EQ(image.ao[64 * 32 + 32], 1.0f);

@@ -1,4 +1,4 @@
-#include "alcove/field/combine.h"
+#include "alcove/field/primitives.h"
 #include "alcove/render/renderer.h"
 #include "exact_subject.h"
 
@@ -117,7 +117,7 @@ TEST(Passes, ConvexEdgesTakeTheirColour) {
 }
 
 TEST(Passes, SamplesFallWithTheDistance) {
-    // As the document says: 5 at the eye, 2 from 50 units on.
+    // As in the reference: 5 at the eye, 2 from 50 units on.
     const FewerSamples fewer{.far_samples = 2, .distance = 50.0f};
     EXPECT_EQ(samples_at(0.0f, 5, fewer), 5);
     EXPECT_EQ(samples_at(25.0f, 5, fewer), 4); // 3.5, rounded up
@@ -135,8 +135,8 @@ TEST(Passes, SamplesFallWithTheDistance) {
                        .passes = Pass::ao})
             .ao;
     };
-    EXPECT_EQ(ao(FewerSamples{2, 0.1f}, 5), ao({}, 2)); // all is beyond
-    EXPECT_EQ(ao(FewerSamples{2, 1e6f}, 5), ao({}, 5)); // all is near
+    EXPECT_EQ(ao(FewerSamples{2, 0.1f}, 5), ao({}, 2)); // everything is far
+    EXPECT_EQ(ao(FewerSamples{2, 1e6f}, 5), ao({}, 5)); // everything is near
     const std::vector<float> mixed = ao(FewerSamples{2, 2.0f}, 5), far = ao({}, 2), near = ao({}, 5);
     EXPECT_NE(mixed, far);
     EXPECT_NE(mixed, near);

@@ -2,7 +2,6 @@
 
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 #include "exact_subject.h"
 #include "scratch_folder.h"
@@ -35,7 +34,7 @@ TEST(Renderer, SphereCoversTheDiscItShould) {
     const Camera camera = camera_at(eye, center, size);
     for (const int samples : {1, 4, 9}) {
         const Image image = render(sphere(), camera, {.samples = samples});
-        // The cone that touches a sphere of radius r at distance d has the slope r/√(d² − r²).
+        // The tangent cone of a sphere of radius r at distance d has the slope r/√(d² − r²).
         const double slope = radius / std::sqrt(1.0 - double(radius) * radius);
         const double pixels = 0.5 * size.width * slope / std::tan(20.0 * std::numbers::pi / 180.0);
         const double area = std::numbers::pi * pixels * pixels;
@@ -62,13 +61,12 @@ TEST(Renderer, DepthAndNormalAreThoseOfTheSphere) {
             const Vec3d direction = camera.direction(x + 0.5, y + 0.5);
             const Vec3d q = camera.eye() - middle;
             const double b = glm::dot(q, direction), discriminant = b * b - glm::dot(q, q) + r * r;
-            if (discriminant < 0.05 * r * r) // too grazing to compare, or a miss
+            if (discriminant < 0.05 * r * r) // a miss, or too grazing to compare
                 continue;
             ++hits;
             ASSERT_EQ(image.alpha[i], 1.0f);
             const double length = -b - std::sqrt(discriminant);
-            EXPECT_NEAR(image.depth[i], length * glm::dot(direction, camera.forward()),
-                        1e-4 * frame.diagonal);
+            EXPECT_NEAR(image.depth[i], length * glm::dot(direction, camera.forward()), 1e-4 * frame.diagonal);
             const Vec3d normal = (q + length * direction) / r;
             EXPECT_NEAR(glm::length(Vec3d(image.normal[i]) - normal), 0.0, 2e-3);
         }
@@ -76,14 +74,12 @@ TEST(Renderer, DepthAndNormalAreThoseOfTheSphere) {
 }
 
 TEST(Renderer, FarEyeSeesTheSame) {
-    // A thousand diagonals away: single precision along the whole way would lose the surface.
+    // A thousand diagonals away, single precision from the eye would lose the surface.
     const ImageSize size{101, 101};
     const Camera camera = camera_at(center + Vec3(0.0f, 0.0f, 1000.0f), center, size, 0.04);
     const Image image = render(sphere(), camera, {.samples = 1});
-    const double pixels =
-        0.5 * size.width * (double(radius) / 1000.0) / std::tan(0.02 * std::numbers::pi / 180.0);
-    EXPECT_NEAR(covered(image), std::numbers::pi * pixels * pixels,
-                0.02 * std::numbers::pi * pixels * pixels);
+    const double pixels = 0.5 * size.width * (double(radius) / 1000.0) / std::tan(0.02 * std::numbers::pi / 180.0);
+    EXPECT_NEAR(covered(image), std::numbers::pi * pixels * pixels, 0.02 * std::numbers::pi * pixels * pixels);
     EXPECT_NEAR(glm::dot(image.normal[50 * 101 + 50], Vec3(0.0f, 0.0f, 1.0f)), 1.0f, 1e-3f);
 }
 
@@ -120,9 +116,8 @@ TEST(Renderer, OcclusionDarkensACornerAndOnlyAmbientLight) {
 }
 
 TEST(Renderer, NothingButTheBoxIsDrawn) {
-    const Renderable renderable{
-        Union(Sphere{Vec3(-0.2f, 0.0f, 0.0f), 0.1f}, Sphere{Vec3(0.2f, 0.0f, 0.0f), 0.1f}), frame,
-        renderable_of(Plane{}, {0.09f, -0.1f, -0.1f}, {0.3f, 0.1f, 0.1f}).box};
+    const Renderable renderable{Union(Sphere{Vec3(-0.2f, 0.0f, 0.0f), 0.1f}, Sphere{Vec3(0.2f, 0.0f, 0.0f), 0.1f}),
+                                frame, renderable_of(Plane{}, {0.09f, -0.1f, -0.1f}, {0.3f, 0.1f, 0.1f}).box};
     const Camera camera = camera_at({0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {100, 60}, 50.0);
     const Image image = render(renderable, camera, {});
     double left = 0.0, right = 0.0;
@@ -156,18 +151,18 @@ TEST(Renderer, EveryValueIsFiniteEvenWithoutAGradient) {
     }
 }
 
-// A sheet as grids hold it: distances to the plane z = 0 on both sides, negative behind it at the corners of
-// cells that it passes through.
+// A sheet as grids store it: distances to a plane on both sides, negative behind it at the corners of the cells that
+// the plane crosses.
 struct Sheet {
     static constexpr float voxel = 0.01f;
-    // The plane leans a little against the grid, so that the layer's back has steps.
+    // The plane is slightly tilted against the grid, so that the back of the negative layer has steps.
     static float signed_distance(int x, int y, int z) {
         return (static_cast<float>(z) - 0.1f * static_cast<float>(x) + 0.03f * static_cast<float>(y)) /
                std::sqrt(1.0f + 0.1f * 0.1f + 0.03f * 0.03f);
     }
     static float sample(int x, int y, int z) {
         const float d = signed_distance(x, y, z);
-        // Of the neighbours with which it shares a cell, this one is furthest in front.
+        // Of the neighbours in a common cell, this one is furthest in front.
         const bool crossed = signed_distance(x - 1, y + 1, z + 1) >= 0.0f;
         return voxel * (d < 0.0f && !crossed ? -d : d);
     }
@@ -198,8 +193,7 @@ TEST(Renderer, SheetSeenFromBehindIsSmooth) {
                 EXPECT_GT(glm::dot(image.normal[i], side * front), 0.999f);
                 const Vec3d direction = camera.direction(x + 0.5, y + 0.5);
                 const Vec3d plane = frame.to_scene(Vec3(0.0f));
-                const double length =
-                    glm::dot(plane - camera.eye(), Vec3d(front)) / glm::dot(direction, Vec3d(front));
+                const double length = glm::dot(plane - camera.eye(), Vec3d(front)) / glm::dot(direction, Vec3d(front));
                 EXPECT_NEAR(image.depth[i], length * glm::dot(direction, camera.forward()),
                             0.1 * double(Sheet::voxel) * frame.diagonal);
             }
@@ -224,11 +218,10 @@ TEST(Renderer, ThreadsDoNotMatter) {
 }
 
 TEST(Renderer, APixelOfManySamplesIsDrawnInPieces) {
-    // More samples a row than are worked on at once.
+    // More samples per row than a region holds.
     const ImageSize size{1500, 3};
     const Camera camera = camera_at(center + Vec3(0.0f, 0.0f, 1.0f), center, size);
-    const Image many = render(sphere(), camera, {.samples = 1000}),
-                few = render(sphere(), camera, {.samples = 9});
+    const Image many = render(sphere(), camera, {.samples = 1000}), few = render(sphere(), camera, {.samples = 9});
     for (std::size_t i = 0; i < many.pixels(); ++i) {
         EXPECT_NEAR(many.alpha[i], few.alpha[i], 0.2f);
         if (few.alpha[i] == 1.0f) {
@@ -251,8 +244,7 @@ TEST(Outline, BoundsASurfaceByItsField) {
     const Outline around = outline(Sphere{center, radius}, frame);
     const double cell = frame.diagonal / 64.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double low = frame.to_scene(center - radius)[axis],
-                     high = frame.to_scene(center + radius)[axis];
+        const double low = frame.to_scene(center - radius)[axis], high = frame.to_scene(center + radius)[axis];
         EXPECT_LE(around.box.min[axis], low);
         EXPECT_GE(around.box.min[axis], low - 2.0 * cell);
         EXPECT_GE(around.box.max[axis], high);

@@ -8,7 +8,7 @@
 namespace alcove {
 namespace {
 
-/// All that a colour depends on, at random.
+/// Random inputs of shading.
 struct Case {
     Lighting lighting;
     Material material;
@@ -17,9 +17,7 @@ struct Case {
     explicit Case(std::mt19937& random) {
         std::normal_distribution<float> normal;
         std::uniform_real_distribution<float> share(0.0f, 1.0f);
-        const auto direction = [&] {
-            return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
-        };
+        const auto direction = [&] { return glm::normalize(Vec3(normal(random), normal(random), normal(random))); };
         const auto color = [&] { return Vec3(share(random), share(random), share(random)); };
         lighting = {direction(), direction(), color(), color(), color()};
         material = {color(), color(), color(), share(random), share(random)};
@@ -27,15 +25,14 @@ struct Case {
     }
 };
 
-/// The document's terms, written out once more, in double.
-double literally(const Case& c, int channel) {
+/// The formulas of the reference, transcribed in double precision.
+double transcribed(const Case& c, int channel) {
     const auto dot = [](const Vec3& a, const Vec3& b) {
         return double(a.x) * double(b.x) + double(a.y) * double(b.y) + double(a.z) * double(b.z);
     };
     const double ny = dot(c.place.normal, c.lighting.up);
     const double ao = double(c.place.ao) * double(c.material.occlusion);
-    const double diffuse =
-        std::fmax(0.0, dot(c.place.normal, c.lighting.toward_key)) * double(c.lighting.key[channel]);
+    const double diffuse = std::fmax(0.0, dot(c.place.normal, c.lighting.toward_key)) * double(c.lighting.key[channel]);
     const double shadow = double(c.place.shadow), ambient = double(c.lighting.sky[channel]);
     double light = 0.0;
     if (c.lighting.use == OcclusionUse::ambient)
@@ -63,7 +60,7 @@ TEST(Shading, IsTheFormulasOfItsSource) {
             c.material.edge_color.reset();
         const Vec3 color = shade(c.lighting, c.material, c.place);
         for (int channel = 0; channel < 3; ++channel)
-            EXPECT_NEAR(color[channel], literally(c, channel), 2e-6);
+            EXPECT_NEAR(color[channel], transcribed(c, channel), 2e-6);
     }
 }
 
@@ -103,7 +100,7 @@ TEST(Shading, DefaultLightingStaysWithinTheDisplay) {
 }
 
 TEST(Srgb, MatchesTheStandard) {
-    // Values of IEC 61966-2-1, from its inverse: ((s + 0.055)/1.055)^2.4 above 0.04045, s/12.92 below.
+    // The inverse transfer function of the standard (srgb1999): ((s + 0.055)/1.055)^2.4 above 0.04045, else s/12.92.
     for (int code = 0; code <= 255; ++code) {
         const double s = code / 255.0;
         const double linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);

@@ -1,7 +1,6 @@
-#include "alcove/render/soft_shadow.h"
+#include "alcove/render/shading.h"
 
 #include "alcove/base/parallel.h"
-#include "alcove/field/combine.h"
 #include "alcove/field/primitives.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +15,7 @@ const Vec3 toward_sun = glm::normalize(Vec3(1.0f, 0.8f, -0.6f));
 const Union scene(Plane{{0, 1, 0}, -0.2f}, Sphere{{0, 0, 0}, 0.15f},
                   Capsule{{0.2f, 0, 0.2f}, {0.2f, 0.3f, 0.2f}, 0.04f});
 
-/// Ground around the shapes.
+/// Surfels on the ground around the shapes.
 std::vector<Surfel> ground(int side) {
     std::vector<Surfel> surfels;
     for (int i = 0; i < side; ++i)
@@ -27,8 +26,8 @@ std::vector<Surfel> ground(int side) {
     return surfels;
 }
 
-/// The formula once more, in double, one way at a time.
-double literally(const Vec3& from, const SoftShadow& shadow) {
+/// The formula transcribed in double precision, for one ray.
+double transcribed(const Vec3& from, const SoftShadow& shadow) {
     double light = 1.0, t = double(shadow.begin);
     while (t <= double(shadow.end)) {
         const Vec3d p = Vec3d(from) + t * Vec3d(toward_sun);
@@ -49,7 +48,7 @@ TEST(SoftShadow, IsTheFormulaOfItsSource) {
         const std::vector<float> light = soft_shadows(surfels, scene, toward_sun, shadow);
         int dark = 0, between = 0;
         for (std::size_t i = 0; i < surfels.size(); ++i) {
-            const double expected = literally(surfels[i].position, shadow);
+            const double expected = transcribed(surfels[i].position, shadow);
             EXPECT_NEAR(light[i], expected, 2e-3);
             dark += expected == 0.0;
             between += expected > 0.0 && expected < 1.0;
@@ -60,7 +59,7 @@ TEST(SoftShadow, IsTheFormulaOfItsSource) {
 }
 
 TEST(SoftShadow, IsBlackInTheCoreAndOneFarAway) {
-    // Straight behind the ball, and where the sun passes far above it.
+    // Directly behind the ball, and where the rays pass far above it.
     const Vec3 behind = -0.16f * toward_sun, open(-0.65f, -0.2f, -0.45f);
     const std::vector<Surfel> surfels{{behind + Vec3(0.0f, -0.1f, 0.0f), toward_sun}, {open, {0, 1, 0}}};
     const std::vector<float> light = soft_shadows(surfels, Sphere{{0, 0, 0}, 0.15f}, toward_sun);

@@ -13,7 +13,7 @@ TEST(Turntable, TurnsCounterclockwiseAboutTheAxis) {
     EXPECT_NEAR(glm::length(turned(Vec3d(2, 5, 4), axis, 360.0) - Vec3d(2, 5, 4)), 0.0, 1e-12);
 }
 
-/// What a turned camera sees of a turned point is what the camera saw of the point.
+/// A rotated camera projects a rotated point to the same pixel.
 TEST(Turntable, TheCameraIsCarriedAround) {
     const Camera camera({4.0, 5.0, 6.0}, {1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, 40.0, {320, 200});
     for (const double degrees : {0.0, 10.0, 90.0, 200.0})

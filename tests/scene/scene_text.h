@@ -1,7 +1,7 @@
-/// Scenes written in a test, read as files are.
+/// Scenes given as text in a test.
 #pragma once
 
-#include "alcove/scene/scene_file.h"
+#include "alcove/scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 namespace alcove::test {
 
-/// A file in a folder of its own, gone at the end.
+/// A scene file in a temporary folder.
 class SceneText {
   public:
     explicit SceneText(const std::string& text) {

@@ -2,7 +2,7 @@
 
 #include "alcove/base/errors.h"
 #include "alcove/field/primitives.h"
-#include "alcove/scene/build.h"
+#include "alcove/scene/scene.h"
 #include "shapes.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace alcove::test {
 namespace {
 
-/// What map() of the built scene says at places of the scene, in its units.
+/// The field of a built scene, in scene space and scene units.
 struct Mapped {
     BuiltScene built;
 
@@ -29,6 +29,23 @@ std::vector<Vec3d> random_places(double size) {
     for (int i = 0; i < 300; ++i)
         places.emplace_back(coordinate(random), coordinate(random), coordinate(random));
     return places;
+}
+
+TEST(Staging, QualityChoosesGuidedAndItsRays) {
+    Scene scene = scene_from("[[object]]\nshape = \"sphere\"\n");
+    int fewer = 0;
+    for (const Quality quality : {Quality::draft, Quality::good, Quality::fine}) {
+        scene.occlusion.choose(quality);
+        const BuiltScene built = build_scene(scene);
+        ASSERT_NE(built.occlusion.method, nullptr);
+        EXPECT_EQ(built.occlusion.method->name, "guided");
+        EXPECT_GT(built.occlusion.samples, fewer);
+        fewer = built.occlusion.samples;
+    }
+    scene.occlusion.choose("traced");
+    EXPECT_EQ(build_scene(scene).occlusion.method->name, "traced");
+    scene.occlusion.choose("none");
+    EXPECT_EQ(build_scene(scene).occlusion.method, nullptr);
 }
 
 TEST(Staging, PrimitivesAreWhatTheirFormulasSay) {
@@ -50,9 +67,8 @@ object = [
 }
 
 TEST(Staging, PlacementScalesThenTurnsAboutXThenYThenZThenMoves) {
-    const Mapped map(
-        "[[object]]\nshape = \"box\"\nsize = [1, 2, 3]\ntranslate = [5, -4, 2]\nrotate = [30, 40, 50]\n"
-        "scale = 2\n");
+    const Mapped map("[[object]]\nshape = \"box\"\nsize = [1, 2, 3]\ntranslate = [5, -4, 2]\nrotate = [30, 40, 50]\n"
+                     "scale = 2\n");
     const auto turn = [](double& a, double& b, double degrees) {
         const double angle = degrees * 3.14159265358979323846 / 180.0, a0 = a;
         a = a * std::cos(angle) - b * std::sin(angle);
@@ -108,8 +124,7 @@ point = [7, -2, 7]
     ASSERT_EQ(built.renderable.grounds.size(), 1u);
     EXPECT_EQ(built.renderable.parts.size(), 1u);
     EXPECT_NEAR(double(built.renderable.grounds[0].plane.map({0, 0, 0})) * 7.0, 2.0, 1e-6);
-    EXPECT_NEAR(double(built.renderable.surroundings().map({0.0f, -0.25f, 0.0f})) * 7.0, 2.0 - 0.25 * 7.0,
-                1e-6);
+    EXPECT_NEAR(double(built.renderable.surroundings().map({0.0f, -0.25f, 0.0f})) * 7.0, 2.0 - 0.25 * 7.0, 1e-6);
     for (const Vec3d& p : built.points)
         EXPECT_LE(std::fabs(p.z), 3.1);
 }
@@ -125,16 +140,13 @@ TEST(Staging, TheGroundIsBelowTheLowestPoint) {
         const Frame& frame = built.renderable.frame;
         EXPECT_NEAR(built.renderable.grounds[0].plane.map(frame.to_unit({0, 0, 0})), 0.0f, 6e-4f) << shape;
     }
-    const BuiltScene given =
-        build_scene(scene_from("object = [{ shape = \"sphere\" }]\n[ground]\nheight = -3\n"));
-    EXPECT_NEAR(given.renderable.grounds[0].plane.map(given.renderable.frame.to_unit({5, -3, 1})), 0.0f,
-                1e-6f);
+    const BuiltScene given = build_scene(scene_from("object = [{ shape = \"sphere\" }]\n[ground]\nheight = -3\n"));
+    EXPECT_NEAR(given.renderable.grounds[0].plane.map(given.renderable.frame.to_unit({5, -3, 1})), 0.0f, 1e-6f);
 }
 
 TEST(Staging, AFieldNearEnoughToAScaledAndMovedSceneIsTheSame) {
     const Mapped small("object = [{ shape = \"torus\", ring = 2e-6, tube = 1e-6 }]\n");
-    const Mapped large(
-        "object = [{ shape = \"torus\", ring = 2e9, tube = 1e9, translate = [1e10, 0, 0] }]\n");
+    const Mapped large("object = [{ shape = \"torus\", ring = 2e9, tube = 1e9, translate = [1e10, 0, 0] }]\n");
     for (const Vec3d& p : random_places(3.0)) {
         EXPECT_NEAR(small(1e-6 * p) * 1e6, large(1e9 * p + Vec3d(1e10, 0, 0)) * 1e-9, 1e-5);
     }
@@ -154,27 +166,24 @@ TEST(Staging, ABlendStaysInItsBoxHoweverManyPartsItHas) {
 }
 
 TEST(Staging, TheGroundIsBelowWhatIsSmallInALargeScene) {
-    const BuiltScene built =
-        build_scene(scene_from("object = [{ shape = \"sphere\", radius = 0.01 }, { shape = "
-                               "\"box\", translate = [0, 2, 0] }]\n[ground]\n"));
+    const BuiltScene built = build_scene(scene_from("object = [{ shape = \"sphere\", radius = 0.01 }, { shape = "
+                                                    "\"box\", translate = [0, 2, 0] }]\n[ground]\n"));
     EXPECT_NEAR(double(built.renderable.grounds[0].plane.map(built.renderable.frame.to_unit({0, 0, 0}))) *
                     built.renderable.frame.diagonal,
                 0.01, 1e-6);
 }
 
 TEST(Staging, ATurnedBallIsAsLargeAsBefore) {
-    const BuiltScene built =
-        build_scene(scene_from("object = [{ shape = \"sphere\", rotate = [45, 35, 0] }]\n"));
+    const BuiltScene built = build_scene(scene_from("object = [{ shape = \"sphere\", rotate = [45, 35, 0] }]\n"));
     EXPECT_NEAR(built.renderable.frame.diagonal, std::sqrt(12.0), 1e-12);
     const Box ring =
-        build_scene(
-            scene_from("object = [{ shape = \"torus\", ring = 2, tube = 0.5, rotate = [90, 0, 0] }]\n"))
+        build_scene(scene_from("object = [{ shape = \"torus\", ring = 2, tube = 0.5, rotate = [90, 0, 0] }]\n"))
             .renderable.box;
     EXPECT_NEAR(ring.max.y, 2.5, 1e-12);
     EXPECT_NEAR(ring.max.z, 0.5, 1e-7);
 }
 
-/// A soft shadow tells distances from the way over its sharpness: where they are cut, open ground is dark.
+/// A soft shadow depends on distances up to t/sharpness. If these are cut off, open ground is dark.
 TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
     std::filesystem::create_directories(std::filesystem::temp_directory_path() / "alcove_reach");
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "alcove_reach/ball.off";
@@ -194,16 +203,16 @@ TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
         const Frame& frame = built.renderable.frame;
         return double(built.renderable.field.map(frame.to_unit({x, 0, 0}))) * frame.diagonal;
     };
-    EXPECT_NEAR(distance_at(2.2), 1.2, 0.05); // a third of the diagonal away voxels are coarse
+    EXPECT_NEAR(distance_at(2.2), 1.2, 0.05); // voxels are coarse a third of the diagonal away
     scene.light.casts_shadow = false;
-    EXPECT_LT(distance_at(1.7), 0.68); // only a bound: no more was asked
+    EXPECT_LT(distance_at(1.7), 0.68); // a lower bound only, because no larger reach is needed
     std::filesystem::remove_all(file.parent_path());
 }
 
 void expect_refusal(const std::string& text, std::initializer_list<const char*> parts) {
     try {
         build_scene(scene_from(text));
-        ADD_FAILURE() << "was built: " << text;
+        ADD_FAILURE() << "built without an error: " << text;
     } catch (const InputError& error) {
         for (const char* part : parts)
             EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
@@ -213,14 +222,12 @@ void expect_refusal(const std::string& text, std::initializer_list<const char*> 
 TEST(Staging, WhatMakesNoPictureIsNamed) {
     expect_refusal("[image]\n", {"empty", "[[object]]"});
     expect_refusal("object = [{ shape = \"union\", part = [{ shape = \"plane\", name = \"wall\" }] }]\n",
-                   {"wall", "has no end"});
-    expect_refusal(
-        "object = [{ shape = \"difference\", part = [{ shape = \"plane\" }, { shape = \"box\" }] }]\n",
-        {"part 1 (plane)", "has no end"});
-    expect_refusal(
-        "object = [{ shape = \"difference\", part = [{ shape = \"box\" }, { shape = \"sphere\", radius = 2 "
-        "}] }]\n",
-        {"no surface"});
+                   {"wall", "is infinite"});
+    expect_refusal("object = [{ shape = \"difference\", part = [{ shape = \"plane\" }, { shape = \"box\" }] }]\n",
+                   {"part 1 (plane)", "is infinite"});
+    expect_refusal("object = [{ shape = \"difference\", part = [{ shape = \"box\" }, { shape = \"sphere\", radius = 2 "
+                   "}] }]\n",
+                   {"no surface"});
     expect_refusal("occlusion = { radius = \"3vx\" }\nobject = [{ shape = \"box\" }]\n", {"vx"});
 }
 

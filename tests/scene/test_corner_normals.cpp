@@ -36,7 +36,7 @@ TEST(CornerNormals, AreThoseOfTheBallOnABall) {
 TEST(CornerNormals, TheFilesOwnGoFirst) {
     Mesh box = box_mesh(Vec3d(1.0), 1);
     box.normals.assign(box.positions.size(), glm::normalize(Vec3(1, 2, 3)));
-    box.normals.front() = Vec3(0.0f); // the file does not know
+    box.normals.front() = Vec3(0.0f); // missing in the file
     const std::vector<Triangle> triangles = triangulate(box).triangles;
     const auto normals = corner_normals(box, triangles);
     for (std::size_t f = 0; f < triangles.size(); ++f)

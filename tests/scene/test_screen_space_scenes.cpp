@@ -1,7 +1,6 @@
-/// The picture's own occlusion against traced rays on whole scenes.
+/// Screen-space occlusion against traced rays on complete scenes.
 #include "alcove/render/detail/screen_space.h"
-#include "alcove/scene/build.h"
-#include "alcove/scene/scene_file.h"
+#include "alcove/scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -34,10 +33,8 @@ TEST_P(ScreenSpaceScene, BilateralBlurIsNearerToTracedRaysThanNoneAndGaussian) {
             }
         return std::sqrt(sum / count);
     };
-    const double none = error(Blur::none), gaussian = error(Blur::gaussian),
-                 bilateral = error(Blur::bilateral);
-    std::printf("%s: RMSE %.4f without blur, %.4f Gaussian, %.4f bilateral\n", GetParam(), none, gaussian,
-                bilateral);
+    const double none = error(Blur::none), gaussian = error(Blur::gaussian), bilateral = error(Blur::bilateral);
+    std::printf("%s: RMSE %.4f without blur, %.4f Gaussian, %.4f bilateral\n", GetParam(), none, gaussian, bilateral);
     EXPECT_LT(bilateral, none);
     EXPECT_LT(bilateral, gaussian);
 }

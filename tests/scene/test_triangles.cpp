@@ -1,9 +1,9 @@
-/// What pictures take from triangles: normals, painted values, exact rays.
+/// Rendering with triangles: mesh normals, painted values, exact rays.
 #include "scene_text.h"
 
 #include "alcove/base/errors.h"
 #include "alcove/mesh/write.h"
-#include "alcove/scene/build.h"
+#include "alcove/scene/scene.h"
 #include "shapes.h"
 
 #include <cmath>
@@ -24,7 +24,7 @@ Drawn draw(const Scene& scene, PassSet passes) {
     return {std::move(built), camera, std::move(image)};
 }
 
-/// A coarse ball of few triangles as a file, its vertices black above and white below.
+/// A file with a coarse ball, whose vertices are black above and white below.
 class BallFile : public testing::Test {
   protected:
     BallFile() { write("ball.ply", 2); }
@@ -51,10 +51,9 @@ class BallFile : public testing::Test {
     }
 
     Scene scene(const std::string& more) const {
-        return scene_from(
-            "[image]\nwidth = 120\nheight = 90\nsamples = 1\n[occlusion]\nmethod = \"none\"\n[[object]]\n"
-            "shape = \"mesh\"\nfile = \"" +
-            (folder_ / "ball.ply").string() + "\"\n" + more);
+        return scene_from("[image]\nwidth = 120\nheight = 90\nsamples = 1\n[occlusion]\nmethod = \"none\"\n[[object]]\n"
+                          "shape = \"mesh\"\nfile = \"" +
+                          (folder_ / "ball.ply").string() + "\"\n" + more);
     }
 
     std::filesystem::path folder_ =
@@ -63,15 +62,14 @@ class BallFile : public testing::Test {
 };
 
 TEST_F(BallFile, NormalsOfTheMeshAreSmoothAndThoseOfTheFieldAreNot) {
-    // Between the normals of the corners of a coarse ball, those of the ball itself are near.
+    // Interpolated vertex normals of a coarse ball are close to those of the exact ball.
     const auto largest_angle = [](const Drawn& drawn) {
         double largest = 0.0;
         for (std::size_t i = 0; i < drawn.image.pixels(); ++i) {
             const Vec3d out = glm::normalize(Vec3d(drawn.image.position[i]));
-            const Vec3d way = glm::normalize(Vec3d(drawn.image.position[i]) - drawn.camera.eye());
-            if (drawn.image.alpha[i] == 1.0f && glm::dot(out, way) < -0.4)
-                largest = std::fmax(largest,
-                                    std::acos(std::fmin(1.0, glm::dot(out, Vec3d(drawn.image.normal[i])))));
+            const Vec3d ray = glm::normalize(Vec3d(drawn.image.position[i]) - drawn.camera.eye());
+            if (drawn.image.alpha[i] == 1.0f && glm::dot(out, ray) < -0.4)
+                largest = std::fmax(largest, std::acos(std::fmin(1.0, glm::dot(out, Vec3d(drawn.image.normal[i])))));
         }
         return largest * 180.0 / 3.14159265358979;
     };
@@ -85,7 +83,7 @@ TEST_F(BallFile, NormalsOfTheMeshAreSmoothAndThoseOfTheFieldAreNot) {
 TEST_F(BallFile, PlacesAreMovedOntoTheTriangles) {
     const Drawn drawn = draw(scene("normals = \"mesh\"\n"), Pass::position | Pass::depth);
     const Mesh ball = sphere_mesh(2);
-    double inside = 1.0; // the nearest of its planes
+    double inside = 1.0; // distance from the origin to the nearest face plane
     for (std::size_t f = 0; f < ball.face_count(); ++f) {
         const Vec3d &a = ball.positions[ball.face(f)[0]], &b = ball.positions[ball.face(f)[1]],
                     &c = ball.positions[ball.face(f)[2]];
@@ -96,13 +94,13 @@ TEST_F(BallFile, PlacesAreMovedOntoTheTriangles) {
         if (drawn.image.alpha[i] < 1.0f)
             continue;
         ++seen;
-        // A pixel's own ray, as far as the depth says.
-        const Vec3d way =
+        // The point at the stored depth on the ray of the pixel.
+        const Vec3d ray =
             drawn.camera.direction(static_cast<double>(i % 120) + 0.5, static_cast<double>(i / 120) + 0.5);
         const Vec3d p =
-            drawn.camera.eye() + way * (double(drawn.image.depth[i]) / glm::dot(way, drawn.camera.forward()));
+            drawn.camera.eye() + ray * (double(drawn.image.depth[i]) / glm::dot(ray, drawn.camera.forward()));
         EXPECT_NEAR(glm::length(p - Vec3d(drawn.image.position[i])), 0.0, 1e-4);
-        EXPECT_LE(glm::length(p), 1.0 + 1e-5); // chords of the ball
+        EXPECT_LE(glm::length(p), 1.0 + 1e-5); // triangles are inside the ball
         EXPECT_GE(glm::length(p), inside);
     }
     EXPECT_GT(seen, 2000);
@@ -124,7 +122,7 @@ TEST_F(BallFile, PaintedValuesMultiplyOcclusion) {
         if (dark.alpha[i] < 1.0f || bright.alpha[i] < 1.0f)
             continue;
         const double share = double(dark.color[i].x) / double(bright.color[i].x);
-        // A triangle away from the equator all corners are alike.
+        // Further than a triangle from the equator, all corners of a triangle have the same colour.
         if (dark.position[i].y > 0.45f) {
             EXPECT_NEAR(share, 0.0, 1e-6);
             ++above;
@@ -138,7 +136,7 @@ TEST_F(BallFile, PaintedValuesMultiplyOcclusion) {
 }
 
 TEST_F(BallFile, OfAnObjectAreNotTakenForThoseOfOneThatCrossesIt) {
-    // A sphere through the ball: where they meet, each keeps its own normals.
+    // A sphere that intersects the ball: each keeps its own normals where they meet.
     const Drawn drawn =
         draw(scene("normals = \"mesh\"\nvoxel = 0.1\n[[object]]\nshape = \"sphere\"\ncenter = [0.8, 0.6, "
                    "0.5]\nradius = 0.7\n"),
@@ -156,9 +154,8 @@ TEST_F(BallFile, OfAnObjectAreNotTakenForThoseOfOneThatCrossesIt) {
 TEST_F(BallFile, ABlendedCutOfAMeshIsThatOfItsShape) {
     write("fine.ply", 5);
     const auto cut = [&](const std::string& ball) {
-        return build_scene(
-            scene_from("[[object]]\nshape = \"difference\"\nblend = 0.6\n[[object.part]]\n" + ball +
-                       "[[object.part]]\nshape = \"sphere\"\ncenter = [0, 1.2, 0]\nradius = 0.8\n"));
+        return build_scene(scene_from("[[object]]\nshape = \"difference\"\nblend = 0.6\n[[object.part]]\n" + ball +
+                                      "[[object.part]]\nshape = \"sphere\"\ncenter = [0, 1.2, 0]\nradius = 0.8\n"));
     };
     const BuiltScene meshed = cut("shape = \"mesh\"\nfile = \"" + (folder_ / "fine.ply").string() + "\"\n");
     const BuiltScene exact = cut("shape = \"sphere\"\n");
@@ -190,7 +187,7 @@ center = [500, 0, 0]
     EXPECT_NE(build_scene(scene).renderable.mesh, nullptr);
 }
 
-/// Exact rays on the triangles of primitives and differences against rays traced through the same fields.
+/// Exact rays against the triangles of primitives and differences, compared with rays traced through their fields.
 TEST(TrianglesOfAScene, ExactRaysAgreeWithTracedOnes) {
     Scene scene = scene_from(R"(
 [image]

@@ -64,34 +64,33 @@ bool same_stack(const GridStack& a, const GridStack& b) {
                       });
 }
 
-/// Largest difference of values and of places, in voxels of the first.
+/// The largest difference of values and of positions, in voxels of the first stack.
 double distance_between(const GridStack& a, const GridStack& b) {
     const LevelSet &p = a.levels.front(), &q = b.levels.front();
     const double voxel = p.voxel * a.frame.diagonal;
     const Vec3d low = a.frame.to_scene(p.origin), other_low = b.frame.to_scene(q.origin);
     double difference = glm::length(low - other_low) / voxel;
-    // At the far end of the grid.
+    // The difference of voxel sizes adds up to the far end of the grid.
     difference = std::max(difference, std::fabs(q.voxel * b.frame.diagonal / voxel - 1.0) * 64.0);
     for (const auto& [from, to] : {std::pair(&p, &q), std::pair(&q, &p)}) {
         const double from_unit = from == &p ? a.value_unit : b.value_unit,
                      to_unit = from == &p ? b.value_unit : a.value_unit;
         const auto reader = to->grid->grid->getConstAccessor();
         for (auto value = from->grid->grid->cbeginValueAll(); value; ++value)
-            difference =
-                std::max(difference,
-                         std::fabs(*value * from_unit - reader.getValue(value.getCoord()) * to_unit) / voxel);
+            difference = std::max(difference,
+                                  std::fabs(*value * from_unit - reader.getValue(value.getCoord()) * to_unit) / voxel);
     }
     return difference;
 }
 
 struct Outcomes {
-    int refused = 0, warned = 0, right = 0, near = 0, moved = 0, wrong = 0;
-    double farthest = 0.0; ///< of those that are near, voxels
+    int refused = 0, warned = 0, correct = 0, near = 0, moved = 0, wrong = 0;
+    double farthest = 0.0; ///< largest difference counted as near, voxels
 
     std::string text() const {
-        return fmt::format(
-            "{:3} refused, {:3} warned of, {:3} right, {:3} near (to {:.2f} voxels), {} moved, {} wrong",
-            refused, warned, right, near, farthest, moved, wrong);
+        return fmt::format("{:3} refused, {:3} with a warning, {:3} correct, {:3} near (up to {:.2f} "
+                           "voxels), {} moved, {} wrong",
+                           refused, warned, correct, near, farthest, moved, wrong);
     }
 };
 
@@ -118,7 +117,7 @@ class DamagedGrids : public testing::TestWithParam<Compression> {
         return {std::istreambuf_iterator<char>(in), {}};
     }
 
-    /// Reads what is left of the file; more than five seconds end the program.
+    /// Reads a damaged file and counts the outcome. Taking more than five seconds ends the program.
     void try_to_read(const std::string& bytes, const GridStack& expected, double bound, bool in_translation,
                      Outcomes& outcomes) const {
         std::ofstream(damaged(), std::ios::binary) << bytes;
@@ -126,7 +125,7 @@ class DamagedGrids : public testing::TestWithParam<Compression> {
         try {
             const GridStack stack = read_grids(damaged());
             if (same_stack(stack, expected)) {
-                ++outcomes.right;
+                ++outcomes.correct;
             } else if (!stack.warnings.empty()) {
                 ++outcomes.warned;
             } else if (const double difference = distance_between(expected, stack); difference <= bound) {
@@ -141,16 +140,15 @@ class DamagedGrids : public testing::TestWithParam<Compression> {
         alarm(0);
     }
 
-    /// 300 bits anywhere, 150 where the file tells what it holds, and 75 cuts. Those in the translation, if the file
-    /// has one, are told apart.
-    void damage(const char* whose, const GridStack& expected, double bound,
-                const openvdb::Vec3d* translation) {
+    /// Flips 300 bits anywhere and 150 in the header, and truncates the file 75 times. Flips in the translation, if
+    /// given, are counted separately.
+    void damage(const char* whose, const GridStack& expected, double bound, const openvdb::Vec3d* translation) {
         const std::string bytes = bytes_of(whole());
-        std::string place;
+        std::string translation_bytes;
         if (translation)
-            place.assign(reinterpret_cast<const char*>(translation), sizeof *translation);
-        const std::size_t place_begin = bytes.find(place);
-        ASSERT_NE(place_begin, std::string::npos);
+            translation_bytes.assign(reinterpret_cast<const char*>(translation), sizeof *translation);
+        const std::size_t translation_begin = bytes.find(translation_bytes);
+        ASSERT_NE(translation_begin, std::string::npos);
         constexpr unsigned seed = 20240501;
         std::mt19937 random(seed);
         const auto flip = [&](int count, std::size_t within) {
@@ -159,16 +157,15 @@ class DamagedGrids : public testing::TestWithParam<Compression> {
                 std::string flipped = bytes;
                 const auto bit = std::uniform_int_distribution<std::size_t>(0, 8 * within - 1)(random);
                 flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ 1 << bit % 8);
-                try_to_read(flipped, expected, bound, bit / 8 - place_begin < place.size(), outcomes);
+                try_to_read(flipped, expected, bound, bit / 8 - translation_begin < translation_bytes.size(), outcomes);
             }
             return outcomes;
         };
         const Outcomes anywhere = flip(300, bytes.size()), header = flip(150, 2000);
         Outcomes cuts;
         for (int i = 0; i < 75; ++i)
-            try_to_read(
-                bytes.substr(0, std::uniform_int_distribution<std::size_t>(0, bytes.size() - 1)(random)),
-                expected, 0.0, false, cuts);
+            try_to_read(bytes.substr(0, std::uniform_int_distribution<std::size_t>(0, bytes.size() - 1)(random)),
+                        expected, 0.0, false, cuts);
         fmt::print("{}, {}: {} bytes, seed {}\n  bits  {}\n  first {}\n  cuts  {}\n", whose, GetParam().name,
                    bytes.size(), seed, anywhere.text(), header.text(), cuts.text());
         EXPECT_EQ(anywhere.wrong, 0);
@@ -188,7 +185,7 @@ TEST_P(DamagedGrids, OfOursAreRefusedOrRight) {
     test::add_part(mesh, test::sphere_mesh(4), 1.0, Vec3d(5, 6, 7));
     const GridStack stack = voxelize(mesh, triangulate(mesh).triangles, options);
     write_grids(stack, whole());
-    // As another program would pack it.
+    // Rewrite it with another compression, as another program might.
     io::File file(whole().string());
     file.open(/*delayLoad=*/false);
     const openvdb::GridPtrVec grids = *file.getGrids();
@@ -198,7 +195,7 @@ TEST_P(DamagedGrids, OfOursAreRefusedOrRight) {
     damage("ours", stack, 0.0, nullptr);
 }
 
-/// Nothing tells of values that are off by less than the voxels beside them allow, and nothing of where the whole is.
+/// Values that are wrong by less than their neighbours reveal cannot be detected, nor can a wrong translation.
 TEST_P(DamagedGrids, OfOtherProgramsAreRefusedWarnedOfOrNear) {
     const auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(1.0f, {2, 2, 2}, 0.1f);
     const openvdb::Vec3d translation(5, 6, 7);

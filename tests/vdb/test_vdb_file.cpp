@@ -1,10 +1,9 @@
-#include "alcove/grid/zero_surface.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/vdb/vdb_file.h"
 
 #include "alcove/base/errors.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/detail/vdb_grid.h"
-#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
 #include "shapes.h"
 
@@ -25,8 +24,7 @@ namespace io = openvdb::io;
 class GridFile : public testing::Test {
   protected:
     GridFile()
-        : folder_(std::filesystem::temp_directory_path() /
-                  ("alcove_grid_" + std::to_string(std::random_device{}()))) {
+        : folder_(std::filesystem::temp_directory_path() / ("alcove_grid_" + std::to_string(std::random_device{}()))) {
         std::filesystem::create_directory(folder_);
         openvdb::initialize();
     }
@@ -34,8 +32,7 @@ class GridFile : public testing::Test {
 
     std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
-    void write_foreign(const openvdb::GridBase::Ptr& grid, const std::string& name,
-                       std::uint32_t compression) const {
+    void write_foreign(const openvdb::GridBase::Ptr& grid, const std::string& name, std::uint32_t compression) const {
         io::File file(path(name).string());
         file.setCompression(compression);
         file.write(openvdb::GridPtrVec{grid});
@@ -97,14 +94,12 @@ TEST_F(GridFile, OthersFindLevelSetsInSceneUnits) {
         const openvdb::Vec3d centre = grid->indexToWorld(index);
         EXPECT_NEAR(grid->tree().getValue(index), (centre - openvdb::Vec3d(100, 0, 0)).length() - 10.0,
                     0.03 * grid->voxelSize().x());
-        EXPECT_LT(grid->tree().getValue(openvdb::Coord::round(grid->worldToIndex(openvdb::Vec3d(100, 0, 0)))),
-                  0.0f);
+        EXPECT_LT(grid->tree().getValue(openvdb::Coord::round(grid->worldToIndex(openvdb::Vec3d(100, 0, 0)))), 0.0f);
     }
 }
 
 TEST_F(GridFile, ALevelSetOfAnotherProgramIsAField) {
-    const auto sphere =
-        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
+    const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
     write_foreign(sphere, "foreign.vdb", io::COMPRESS_ZIP);
     const GridStack stack = read_grids(path("foreign.vdb"));
     ASSERT_EQ(stack.levels.size(), 1u);
@@ -121,23 +116,20 @@ TEST_F(GridFile, ALevelSetOfAnotherProgramIsAField) {
 }
 
 TEST_F(GridFile, DistancesInVoxelsAreTakenForWhatTheyAre) {
-    const auto sphere =
-        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
+    const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(2.0f, {5, 6, 7}, 0.05f, 5.0f);
     scale_values(*sphere, 1.0 / 0.05);
     write_foreign(sphere, "voxels.vdb", 0);
     const GridStack stack = read_grids(path("voxels.vdb"));
     ASSERT_EQ(stack.warnings.size(), 1u);
-    EXPECT_NE(stack.warnings.front().find("change by 20 a unit"), std::string::npos)
-        << stack.warnings.front();
+    EXPECT_NE(stack.warnings.front().find("change by 20 per unit"), std::string::npos) << stack.warnings.front();
     const LevelStack field(stack);
     EXPECT_NEAR(field.map(stack.frame.to_unit({7.1, 6, 7})) * stack.frame.diagonal, 0.1, 0.01);
-    write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),
-                  "right.vdb", 0);
+    write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f), "right.vdb", 0);
     EXPECT_TRUE(read_grids(path("right.vdb")).warnings.empty());
 }
 
 TEST_F(GridFile, ABandSetVoxelByVoxelHasAnInside) {
-    // As a script would: nothing tells that what is deep within is not outside.
+    // As a script would write it: voxels deep inside have the value of the outside.
     const auto band = openvdb::FloatGrid::create(0.15f);
     band->setTransform(openvdb::math::Transform::createLinearTransform(0.05));
     auto writer = band->getAccessor();
@@ -154,18 +146,17 @@ TEST_F(GridFile, ABandSetVoxelByVoxelHasAnInside) {
     for (const double x : {0.0, 0.3, 0.6, 0.8})
         EXPECT_LT(field.map(stack.frame.to_unit({x, 0.0, 0.0})), 0.0f) << x;
     EXPECT_GT(field.map(stack.frame.to_unit({1.3, 0.0, 0.0})), 0.0f);
-    // Its faces turn outward though nothing says that it is a level set.
+    // Its faces point outward though the file does not say that it is a level set.
     const Mesh mesh = mesh_zero_surface(stack);
     const auto corners = mesh.face(0);
-    const Vec3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
-                &c = mesh.positions[corners[2]];
+    const Vec3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]], &c = mesh.positions[corners[2]];
     EXPECT_GT(glm::dot(glm::cross(b - a, c - a), a), 0.0);
 }
 
 TEST_F(GridFile, TruncationIsFoundWhateverTheCompression) {
     for (const std::uint32_t compression : {0u, 1u, 2u, 3u, 4u, 6u}) {
-        write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),
-                      "whole.vdb", compression);
+        write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f), "whole.vdb",
+                      compression);
         std::ifstream in(path("whole.vdb"), std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(in), {}};
         for (int cut = 1; cut < 40; ++cut) {
@@ -178,15 +169,15 @@ TEST_F(GridFile, TruncationIsFoundWhateverTheCompression) {
     }
 }
 
-/// OpenVDB reads as many bytes as a length says, into room for as many as there should be.
+/// OpenVDB reads the declared number of bytes into a buffer for the expected number.
 TEST_F(GridFile, LengthsOfValuesAreNotBelieved) {
     for (const std::uint32_t compression : {1u, 4u, 6u}) {
-        write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f),
-                      "whole.vdb", compression);
+        write_foreign(openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f), "whole.vdb",
+                      compression);
         ASSERT_EQ(refusal("whole.vdb"), "read");
         std::ifstream in(path("whole.vdb"), std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-        const std::int64_t too_long = -100000; // as it is, without compression
+        const std::int64_t too_long = -100000; // negative: uncompressed
         int refused = 0;
         for (std::size_t at = 500; at + 8 < bytes.size(); at += bytes.size() / 50) {
             std::string damaged = bytes;
@@ -194,7 +185,7 @@ TEST_F(GridFile, LengthsOfValuesAreNotBelieved) {
             std::ofstream(path("damaged.vdb"), std::ios::binary) << damaged;
             refused += refusal("damaged.vdb") != "read";
         }
-        EXPECT_GT(refused, 0) << compression; // and nothing is written beyond its room
+        EXPECT_GT(refused, 0) << compression; // and no buffer overflows
     }
 }
 
@@ -221,7 +212,7 @@ TEST_F(GridFile, WhatIsChangedBehindOurBackIsFound) {
     write_foreign(floats, "sheet.vdb", 0);
     EXPECT_NE(refusal("sheet.vdb").find("its checksum"), std::string::npos);
 
-    // Written before there were checksums.
+    // As written before there were checksums.
     for (const auto& grid : grids)
         for (const char* name : {"alcove:checksum", "alcove:levels"})
             grid->removeMeta(name);
@@ -236,7 +227,7 @@ TEST_F(GridFile, ValuesThatAreNoDistancesAreSaid) {
     write_foreign(sphere, "bump.vdb", 0);
     const GridStack stack = read_grids(path("bump.vdb"));
     ASSERT_EQ(stack.warnings.size(), 1u);
-    EXPECT_NE(stack.warnings.front().find("no distances"), std::string::npos) << stack.warnings.front();
+    EXPECT_NE(stack.warnings.front().find("not distances"), std::string::npos) << stack.warnings.front();
     sphere->tree().setValueOnly(on_surface, 1e30f);
     write_foreign(sphere, "far.vdb", 0);
     EXPECT_NE(refusal("far.vdb").find("larger than the grid is wide"), std::string::npos);
@@ -250,14 +241,15 @@ TEST_F(GridFile, GridsOfOtherTypesArePassedOver) {
     io::File(path("both.vdb").string()).write(openvdb::GridPtrVec{vectors, sphere});
     EXPECT_EQ(refusal("both.vdb"), "read");
 
-    // In a stream nothing tells where they end.
+    // A stream does not store where its grids end.
     const auto write_stream = [&](const openvdb::GridPtrVec& grids) {
-        std::ofstream stream(path("stream.vdb"), std::ios::binary); // OpenVDB leaves in it what it needs once
+        std::ofstream stream(path("stream.vdb"),
+                             std::ios::binary); // OpenVDB leaves state in it, so use it only once
         io::Stream(stream).write(grids);
     };
     write_stream({vectors, sphere});
     EXPECT_NE(refusal("stream.vdb").find("write it as a file"), std::string::npos) << refusal("stream.vdb");
-    write_stream({sphere, sphere->copy()}); // which share a tree
+    write_stream({sphere, sphere->copy()}); // they share a tree
     EXPECT_EQ(refusal("stream.vdb"), "read");
 }
 
@@ -272,16 +264,15 @@ TEST_F(GridFile, HalvedValuesAreRead) {
 
 TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
     std::ofstream(path("text.vdb")) << "this is no grid";
-    EXPECT_NE(refusal("text.vdb").find("no readable .vdb file"), std::string::npos);
+    EXPECT_NE(refusal("text.vdb").find("not a readable .vdb file"), std::string::npos);
     EXPECT_NE(refusal("missing.vdb").find("cannot be opened"), std::string::npos);
 
     const auto fog = openvdb::FloatGrid::create(0.0f);
     fog->tree().setValue({0, 0, 0}, 1.0f);
     write_foreign(fog, "fog.vdb", 0);
-    EXPECT_NE(refusal("fog.vdb").find("no level set"), std::string::npos);
+    EXPECT_NE(refusal("fog.vdb").find("no float level set"), std::string::npos);
 
-    const auto unsigned_distances =
-        openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
+    const auto unsigned_distances = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
     for (auto value = unsigned_distances->beginValueAll(); value; ++value)
         value.setValue(std::fabs(*value));
     write_foreign(unsigned_distances, "unsigned.vdb", 0);
@@ -289,7 +280,7 @@ TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
 
     const auto vectors = openvdb::Vec3SGrid::create();
     write_foreign(vectors, "vectors.vdb", 0);
-    EXPECT_NE(refusal("vectors.vdb").find("no grid of floats"), std::string::npos);
+    EXPECT_NE(refusal("vectors.vdb").find("no float grid"), std::string::npos);
 
     const auto nan = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
     nan->tree().setValue({10, 0, 0}, NAN);
@@ -299,7 +290,7 @@ TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
     const auto stretched = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
     stretched->transform().preScale({1.0, 2.0, 1.0});
     write_foreign(stretched, "stretched.vdb", 0);
-    EXPECT_NE(refusal("stretched.vdb").find("no cubes"), std::string::npos);
+    EXPECT_NE(refusal("stretched.vdb").find("not axis-aligned cubes"), std::string::npos);
 }
 
 TEST_F(GridFile, AFailedWriteLeavesTheOldFile) {

@@ -9,24 +9,22 @@
 
 namespace alcove {
 
-void parallel_for(std::size_t count, std::size_t grain,
-                  const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
     const std::size_t blocks = (count + grain - 1) / grain;
     tbb::parallel_for(std::size_t{0}, blocks,
                       [&](std::size_t block) { body(block * grain, std::min(count, (block + 1) * grain)); });
 }
 
 std::size_t thread_count() {
-    return std::min<std::size_t>(
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
-        static_cast<std::size_t>(tbb::info::default_concurrency()));
+    return std::min<std::size_t>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+                                 static_cast<std::size_t>(tbb::info::default_concurrency()));
 }
 
 ThreadLimit::ThreadLimit(unsigned threads) {
-    constexpr unsigned most = 4096; // beyond it, the library that runs them asks for memory without end
+    constexpr unsigned max_threads = 4096; // above this, TBB allocates memory without limit
     if (threads > 0)
         control_ =
-            new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::min(threads, most));
+            new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::min(threads, max_threads));
 }
 
 ThreadLimit::~ThreadLimit() {

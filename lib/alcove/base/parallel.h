@@ -1,4 +1,4 @@
-/// Threads behind one call, so that no other header knows which library runs them.
+/// Parallel loops. No other header depends on the threading library.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,16 @@
 
 namespace alcove {
 
-/// Calls `body(begin, end)` for disjoint ranges that cover [0, count), each at most `grain` long and starting
-/// at a multiple of it: what a range holds does not depend on the number of threads. Blocks until all are
-/// done; an exception thrown by `body` is rethrown here.
+/// Called with the share of the work that is done, in [0, 1]; never from two threads at once.
+using Progress = std::function<void(double done)>;
+
+/// Calls `body(begin, end)` for disjoint ranges that cover [0, count). Each is at most `grain` long and starts at a
+/// multiple of it, so the ranges do not depend on the number of threads. Blocks until all are done; rethrows an
+/// exception of `body`.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
-/// How many threads work on a parallel loop from now on, as far as there are cores; ≥ 1.
+/// The number of threads that work on a parallel loop, at most one per core; ≥ 1.
 std::size_t thread_count();
 
 /// While alive, at most `threads` threads work on parallel loops; 0 means one per core.

@@ -1,13 +1,13 @@
-/// The vocabulary of every stage: vectors, boxes, surfels, lengths. Units and signs are said here, once.
+/// The basic types: vectors, boxes, frames, surfels. Also defines units and signs.
 ///
 /// Two spaces:
-///  - *scene space*: the file's coordinates, in double precision. Meshes and anything read or written.
-///  - *unit space*: recentred on the box of the mesh and divided by its diagonal D, in single precision.
-///    Grids, fields, surfels and radii. A radius of 10 % of D is 0.1 here, whatever the size and place of the scene,
-///    so the numbers behind a bake do not depend on either. A Frame maps one to the other.
+///  - *scene space*: the coordinates of the file, in double precision. Used by meshes and everything read or written.
+///  - *unit space*: recentred on the bounding box of the mesh and divided by its diagonal D, in single precision. Used
+///    by grids, fields, surfels and radii. A radius of 10 % of D is 0.1, so a bake does not depend on the size and
+///    position of the scene. A Frame converts between the two.
 ///
 /// Signs: a distance is positive outside (in the air), negative inside (in the solid), zero on the surface.
-/// Occlusion values are visibilities in [0, 1]: 1 is open, 0 is buried.
+/// Occlusion values are visibilities in [0, 1]: 1 is unoccluded, 0 fully occluded.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -17,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 namespace alcove {
 
@@ -37,7 +38,7 @@ struct Box {
     }
     bool empty() const { return !(min.x <= max.x); }
     Vec3d center() const { return min + 0.5 * (max - min); }
-    double diagonal() const; ///< infinite where it is more than a double holds
+    double diagonal() const; ///< infinite if it exceeds the range of a double
 };
 
 /// Scene space <-> unit space: unit = (scene - center) / diagonal.
@@ -49,11 +50,11 @@ struct Frame {
     Vec3d to_scene(const Vec3& unit) const { return Vec3d(unit) * diagonal + center; }
 };
 
-/// The frame of a box; of diagonal 1 where the box is empty or a single point. \throw InputError if the diagonal of the box
-/// is infinite, or subnormal.
+/// The frame of a box, with a diagonal of 1 if the box is empty or a single point. \throw InputError if the
+/// diagonal of the box is infinite or subnormal.
 Frame frame_of(const Box& box);
 
-/// A point of the surface and its unit normal; a zero normal marks a point that has none.
+/// A point of the surface and its unit normal, or a zero normal if it has none.
 struct Surfel {
     Vec3 position;
     Vec3 normal;
@@ -66,7 +67,7 @@ struct Ray {
     Vec3 direction; ///< unit length
 };
 
-/// Some of the values of an enumeration with at most 32 values, counted from 0.
+/// A set of the values of an enumeration, which has at most 32 values, numbered from 0.
 template <class E>
 class EnumSet {
   public:
@@ -83,6 +84,22 @@ class EnumSet {
   private:
     constexpr explicit EnumSet(unsigned bits) : bits_(bits) {}
     unsigned bits_ = 0;
+};
+
+struct Length {
+    enum class Unit { scene, diagonal, voxels };
+    double value = 0.0;
+    Unit unit = Unit::scene;
+
+    Length() = default;
+    Length(double v, Unit u = Unit::scene) : value(v), unit(u) {}
+    /// \throw InputError "takes a positive length, not ..." if the text is not one.
+    Length(const std::string& text);
+    Length(const char* text) : Length(std::string(text)) {}
+
+    /// In unit space, where the diagonal is 1. \throw InputError for voxels where `voxel` (unit space) is 0,
+    /// and for lengths that make no sense with that diagonal.
+    float to_unit(double diagonal, float voxel = 0.0f) const;
 };
 
 }

@@ -1,9 +1,8 @@
-/// What a field is: anything that answers `map(p)`, the signed distance from p to the surface.
+/// A field is anything with `map(p)`, the signed distance from p to the surface.
 ///
-/// Distances and points share one unit (unit space for fields made from meshes, see types.h). A field may
-/// answer less than the true distance where it does not know it (a *bound*), never more than that by more
-/// than its own resolution; tracing and estimators rely on it. `const` use is safe from any number of
-/// threads.
+/// Distances and points share one unit (unit space for fields of meshes, see types.h). Where a field does not know
+/// the true distance it may return less (a *bound*), but it must not exceed the true distance by more than its own
+/// resolution: tracing and estimators rely on that. `const` use is safe from any number of threads.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -15,7 +14,7 @@
 
 namespace alcove {
 
-/// A view of points as three arrays: what SIMD wants.
+/// A view of points as three arrays, suited to SIMD.
 struct Points {
     const float* x;
     const float* y;
@@ -32,15 +31,14 @@ concept Field = requires(const F& field, Vec3 p) {
     { field.map(p) } -> std::convertible_to<float>;
 };
 
-/// A field with a batched form. `reach` is an upper bound of the distances the caller cares about, such as
-/// the height of a probe above the surface: the field may answer from data that is right only up to there.
+/// A field with a batched form. `reach` is an upper bound of the distances that the caller needs, such as the
+/// height of a probe above the surface: the field may use data that is correct only up to that distance.
 template <class F>
 concept BatchedField = Field<F> && requires(const F& field, Points points, float reach, float* distances) {
     field.map(points, reach, distances);
 };
 
-/// distances[i] = field.map(points[i]), through the batched form where there is one. Cost: `count` map()
-/// calls.
+/// distances[i] = field.map(points[i]), using the batched form if there is one. Cost: `count` map() calls.
 template <Field F>
 void map_batch(const F& field, const Points& points, float reach, float* distances) {
     if constexpr (BatchedField<F>) {
@@ -51,7 +49,7 @@ void map_batch(const F& field, const Points& points, float reach, float* distanc
     }
 }
 
-/// The length below which a field says nothing reliable: the finest voxel of a grid, 0 for exact shapes.
+/// The length below which a field is not reliable: the finest voxel of a grid, 0 for exact shapes.
 template <Field F>
 float resolution(const F& field) {
     if constexpr (requires {
@@ -62,8 +60,8 @@ float resolution(const F& field) {
         return 0.0f;
 }
 
-/// No point of the surface is further from the origin than this: a ray that starts at the surface meets it
-/// within twice as much, or never. Infinite for fields that do not know.
+/// An upper bound of the distance of the surface from the origin: a ray that starts on the surface hits it within twice
+/// this length or never. Infinite for fields that do not know it.
 template <Field F>
 float extent(const F& field) {
     if constexpr (requires {
@@ -74,7 +72,7 @@ float extent(const F& field) {
         return std::numeric_limits<float>::infinity();
 }
 
-/// Whether both sides of the surface are air and the sign only tells a thin layer behind it (Sign::sheet).
+/// Whether both sides of the surface are air and only a thin layer behind it is negative (Sign::sheet).
 template <Field F>
 bool two_sided(const F& field) {
     if constexpr (requires {
@@ -85,18 +83,16 @@ bool two_sided(const F& field) {
         return false;
 }
 
-/// Any field behind one type, for choices made at run time. A virtual call a batch, not a point.
-/// Owns a copy of a field; copies of an AnyField share it. Models BatchedField.
+/// A type-erased field, for choices made at run time. Costs one virtual call per batch, not per point. Owns a copy of a
+/// field; copies of an AnyField share it. Models BatchedField.
 class AnyField {
   public:
     template <class F>
     requires(!std::same_as<F, AnyField> && Field<F>) AnyField(F field)
         : self_(std::make_shared<const Holder<F>>(std::move(field))) {}
 
-    float map(const Vec3& p) const { return self_->map_one(p); }
-    void map(const Points& points, float reach, float* distances) const {
-        self_->map_many(points, reach, distances);
-    }
+    float map(const Vec3& p) const { return self_->map_point(p); }
+    void map(const Points& points, float reach, float* distances) const { self_->map_points(points, reach, distances); }
     float resolution() const { return self_->finest(); }
     float extent() const { return self_->furthest(); }
     bool two_sided() const { return self_->both_sides(); }
@@ -104,8 +100,8 @@ class AnyField {
   private:
     struct Interface {
         virtual ~Interface() = default;
-        virtual float map_one(const Vec3& p) const = 0;
-        virtual void map_many(const Points& points, float reach, float* distances) const = 0;
+        virtual float map_point(const Vec3& p) const = 0;
+        virtual void map_points(const Points& points, float reach, float* distances) const = 0;
         virtual float finest() const = 0;
         virtual float furthest() const = 0;
         virtual bool both_sides() const = 0;
@@ -114,8 +110,8 @@ class AnyField {
     template <class F>
     struct Holder final : Interface {
         explicit Holder(F f) : field(std::move(f)) {}
-        float map_one(const Vec3& p) const override { return field.map(p); }
-        void map_many(const Points& points, float reach, float* distances) const override {
+        float map_point(const Vec3& p) const override { return field.map(p); }
+        void map_points(const Points& points, float reach, float* distances) const override {
             map_batch(field, points, reach, distances);
         }
         float finest() const override { return alcove::resolution(field); }

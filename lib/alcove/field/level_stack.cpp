@@ -53,8 +53,8 @@ float LevelStack::map(const Vec3& p) const {
         return distance;
     if (const float outside = levels_->front().bounds().map(p); outside >= reach())
         return outside;
-    // What a finer level could not reach is no nearer than that: behind a sheet the coarser one does not
-    // know.
+    // A distance beyond the band of a finer level is at least the end of that band; behind a sheet the coarser
+    // level may have less.
     for (std::size_t level = 1; level < levels_->size(); ++level) {
         const float coarser = (*levels_)[level].map(p);
         distance = distance > 0.0f ? std::max(coarser, nearest) : std::min(coarser, -nearest);
@@ -71,15 +71,14 @@ void LevelStack::map(const Points& points, float reach, float* distances) const 
         return;
     }
     for (std::size_t begin = 0; begin < points.count; begin += block)
-        escalate(
-            {points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)},
-            distances + begin);
+        escalate({points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)},
+                 distances + begin);
 }
 
 void LevelStack::escalate(const Points& points, float* distances) const {
     sample_bricks(levels_->front().view(), points, distances);
     std::array<float, block> x, y, z, values;
-    std::array<std::uint16_t, block> far; // the points that the level before could not answer
+    std::array<std::uint16_t, block> far; // points beyond the band of the previous level
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i)
         if (cut(distances[i], levels_->front().usable())) {

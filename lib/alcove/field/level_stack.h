@@ -1,4 +1,4 @@
-/// The field of a grid stack: each distance from the finest level that knows it.
+/// The field of a grid stack: each distance comes from the finest level that has it.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -9,13 +9,14 @@
 
 namespace alcove {
 
-class Bricks; // one level as the sampler reads it (field/detail/bricks.h)
+class Bricks; // one level in the layout of the sampler (field/detail/bricks.h)
 
-/// Distances in unit space, trilinear on the finest level whose band holds them: neither saturated values nor
-/// the last voxel of a band are ever returned while a coarser level knows better. Beyond the last band the
-/// answer is a lower bound: the end of that band, or the distance to the box around the surface. Inside, all this holds
-/// where every level knows the inside as far as the outside; else the end of the finest band is the answer. A probe known to be no further than `reach`
-/// from the surface reads the one level made for that height, its voxel at most half of it.
+/// Distances in unit space, interpolated trilinearly on the finest level whose band contains them: if a coarser
+/// level has the distance, saturated values and the last voxel of a band are never used. Beyond the last band the
+/// result is a lower bound: the end of that band, or the distance to the bounding box of the surface. The same
+/// applies inside if GridStack::knows_inside(); otherwise the inside is limited by the end of the finest band. A
+/// probe that is known to be within `reach` of the surface samples only the one level for that height, whose voxel
+/// is at most half of it.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
 class LevelStack {
@@ -28,17 +29,17 @@ class LevelStack {
 
     /// Edge of the finest voxel.
     float resolution() const;
-    /// Whether it is that of a sheet.
+    /// Whether the stack is a sheet.
     bool two_sided() const { return two_sided_; }
     float extent() const;
-    /// Largest distance that is right.
+    /// Largest distance that is not just a bound.
     float reach() const;
     const std::vector<Bricks>& levels() const { return *levels_; }
     std::size_t bytes() const;
 
   private:
     std::size_t level_for(float reach) const;
-    /// Whether a value of a level is only the end of its band.
+    /// Whether a value of a level is saturated at the end of its band.
     bool cut(float distance, float usable) const {
         return distance >= usable || (knows_inside_ && distance <= -usable);
     }

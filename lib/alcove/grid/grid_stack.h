@@ -1,5 +1,5 @@
-/// The sparse grids of a surface: narrow-band level sets of one surface, each with twice the voxel of the one
-/// before and the same band counted in voxels.
+/// The sparse grids of a surface: a stack of narrow-band level sets. Each level has twice the voxel size of the one
+/// before and the same band width in voxels.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -12,48 +12,47 @@
 
 namespace alcove {
 
-struct VdbGrid; // an OpenVDB grid (grid/vdb.h), kept out of public headers
+struct VdbGrid; // an OpenVDB grid (detail/vdb_grid.h), kept out of public headers
 
-/// What the sign of a grid's distances says.
+/// The meaning of the sign of a grid's distances.
 enum class Sign {
     /// Negative inside a solid: closed, consistently oriented surfaces.
     solid,
-    /// Negative only up to a voxel and a half behind the faces, so that the surface still is a zero crossing seen
-    /// from the front; positive elsewhere on both sides. Right for open, nested, leaking and self-touching surfaces.
+    /// Negative only up to one and a half voxels behind the faces, so that the surface is a zero crossing when seen
+    /// from the front; positive elsewhere on both sides. Suits open, nested, leaking and self-touching surfaces.
     sheet,
 };
 
-/// One narrow-band level set. Where its index space lies in unit space: unit = origin + voxel · index.
+/// One narrow-band level set. Index space maps to unit space by unit = origin + voxel · index.
 struct LevelSet {
     std::shared_ptr<const VdbGrid> grid;
     float voxel = 0.0f;      ///< edge of a voxel, unit space
     Vec3 origin{0.0f};       ///< centre of the voxel of index (0, 0, 0), unit space
-    float outer_band = 0.0f; ///< voxels from the surface outward where values are distances
-    float inner_band = 0.0f; ///< the same inward; of a sheet both are air
+    float outer_band = 0.0f; ///< width of the outer band, voxels: values within it are distances
+    float inner_band = 0.0f; ///< width of the inner band, voxels; for a sheet both bands are air
     std::size_t active_voxels = 0;
     std::size_t bytes = 0; ///< memory of the grid
 };
 
 /// Levels from finest to coarsest. Copies share the grids.
 ///
-/// In memory values are scene units divided by `value_unit`, a power of two near the diagonal: of a size that
-/// floats and OpenVDB are good at, and yet written as scene units and read again to the same bits.
+/// In memory, values are scene units divided by `value_unit`, a power of two near the diagonal. This keeps them in a
+/// range that suits floats and OpenVDB, and conversion to scene units and back is exact to the bit.
 struct GridStack {
     Frame frame;
     double value_unit = 1.0;
     Sign sign = Sign::solid;
     std::vector<LevelSet> levels;
-    bool clustered = false; ///< of fewer triangles than the surface has, as GridOptions::cluster has it
-    std::string creator;    ///< the program that wrote the file these were read from, if it says so
-    std::vector<std::string> warnings; ///< what the surface lost on its way into the grid, in words
+    bool clustered = false;            ///< whether GridOptions::cluster reduced the triangles
+    std::string creator;               ///< the program that wrote the file, if read from one that names it
+    std::vector<std::string> warnings; ///< messages about what was lost in voxelization or reading
 
-    /// Largest distance, unit space, that the last level holds.
+    /// Largest distance that the last level represents, unit space.
     float reach() const { return (levels.back().outer_band - 1.0f) * levels.back().voxel; }
-    /// Whether every level knows the inside as far as the outside.
+    /// Whether the inner band of every level is as wide as the outer.
     bool knows_inside() const {
-        return std::all_of(levels.begin(), levels.end(), [](const LevelSet& level) {
-            return level.inner_band >= 0.999f * level.outer_band;
-        });
+        return std::all_of(levels.begin(), levels.end(),
+                           [](const LevelSet& level) { return level.inner_band >= 0.999f * level.outer_band; });
     }
     std::size_t bytes() const {
         std::size_t sum = 0;
@@ -66,7 +65,7 @@ struct GridStack {
 /// The same grids in the unit space of another frame.
 GridStack reframed(GridStack stack, const Frame& frame);
 
-/// The largest power of two that is not above the diagonal.
+/// The largest power of two not above the diagonal.
 double value_unit_of(const Frame& frame);
 
 }

@@ -17,14 +17,14 @@
 namespace alcove {
 namespace {
 
-/// Index (0, 0, 0) of all levels: below and left of every band, so that a tree has one root node and not
-/// eight, each of a quarter of a megabyte.
+/// The position of index (0, 0, 0) on all levels. All bands have positive indices, so that an OpenVDB tree has one node
+/// below its root rather than eight, each a quarter of a megabyte.
 Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
     const float margin = std::ldexp(plan.voxel, plan.levels - 1) * (std::ceil(plan.outer_band) + 2.0f);
     return frame.to_unit(box.min) - margin;
 }
 
-/// Index space: voxels of the finest level.
+/// Positions in index space: voxels of the finest level.
 HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Vec3d& origin, double voxel) {
     HugeVector<Vec3d> positions(mesh.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -37,7 +37,7 @@ HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Ve
 TriangleTree tree_of(const Surface& surface) {
     const FragmentLeaves fragments(surface.positions, surface.triangles);
     if (fragments.count() == 0)
-        throw InputError("the mesh has no face with an area: there is no surface to occlude anything");
+        throw InputError("the mesh has no face with nonzero area: there is no surface to occlude anything");
     return TriangleTree(fragments);
 }
 
@@ -51,7 +51,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.value_unit = value_unit_of(stack.frame);
     const Vec3 origin = origin_of(box, stack.frame, plan);
     const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
-    // What is inside is asked of all triangles, how far the surface is of those that are kept.
+    // The sign uses all triangles, distances only those that clustering keeps.
     const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
     std::optional<ClusteredSurface> clustered;
@@ -71,10 +71,10 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
 
     if (plan.voxel > 0.25f * options.grid.radius)
         stack.warnings.push_back(fmt::format(
-            "the voxel is {:.2g} of the radius, too coarse to tell occlusion: use a voxel of {:.2g} % of "
+            "the voxel is {:.2g} of the radius, too coarse to resolve occlusion: use a voxel of {:.2g} % of "
             "the diagonal or less",
             plan.voxel / options.grid.radius, 12.5 * options.grid.radius));
-    // Rough shares of the time.
+    // The shares of the time are rough.
     const auto done = [&](double share) {
         if (options.progress)
             options.progress(share);
@@ -82,8 +82,8 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     std::optional<Pseudonormals> normals;
     if (stack.sign == Sign::sheet)
         normals.emplace(near.positions, near.triangles);
-    const Band band = normals ? Band(tree, *normals, plan.outer_band)
-                              : Band(tree, columns, {plan.outer_band, plan.inner_band});
+    const Band band =
+        normals ? Band(tree, *normals, plan.outer_band) : Band(tree, columns, {plan.outer_band, plan.inner_band});
     done(0.3);
     for (int level = 0; level < plan.levels; ++level) {
         const float voxel = std::ldexp(plan.voxel, level);

@@ -1,34 +1,35 @@
-/// Turns a mesh into narrow-band level sets.
+/// Converts a mesh to narrow-band level sets.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
 #include "alcove/mesh/mesh.h"
 
 #include <functional>
+#include <span>
 
 namespace alcove {
 
 struct GridOptions {
-    /// Largest distance from the surface that is asked for, unit space, > 0; infinity is cut to the diagonal.
+    /// Largest distance from the surface that will be queried, unit space, > 0; infinity is clamped to the diagonal.
     float radius = 0.1f;
-    /// Edge of the finest voxel, unit space; 0 chooses `largest_voxel`, or radius/8 where that is finer, down
-    /// to 1/1024.
+    /// Edge of the finest voxel, unit space. 0 chooses `largest_voxel`, or radius/8 if that is finer, but at least
+    /// 1/1024.
     float voxel = 0.0f;
-    /// What a chosen voxel is at most, unit space, > 0, unless memory asks for more.
+    /// Upper limit of a chosen voxel, unit space, > 0; the memory limit may still require a larger one.
     float largest_voxel = 1.0f / 256.0f;
-    /// Voxels outward from the surface on every level, at least 3: map() is right up to one less.
+    /// Outer band width of every level, voxels, at least 3. map() is correct up to one voxel less.
     float outer_band = 5.0f;
-    /// Voxels inward on every level of a solid, at least 2. Occlusion never looks deeper.
+    /// Inner band width of every level of a solid, voxels, at least 2. Occlusion never samples deeper.
     float inner_band = 2.0f;
-    /// Where triangles are far smaller than voxels, the grids are of fewer that lie near them: a few hundredths of a voxel
-    /// away as a rule, √3 voxels at most.
+    /// Where triangles are far smaller than voxels, voxelize a surface with fewer triangles: usually a few
+    /// hundredths of a voxel away from the original, √3 voxels at most.
     bool cluster = false;
-    /// Bytes that grids and what builds them may take.
+    /// Limit of the memory for the grids and for building them, bytes.
     double memory_limit = 4.0 * (1u << 30);
 };
 
 enum class SignChoice {
-    automatic, ///< solid where the mesh is closed, oriented outward and hides no part in another, else sheet
+    automatic, ///< solid if the mesh is closed, oriented outward and has no part hidden in another, else sheet
     solid,
     sheet,
 };
@@ -36,18 +37,38 @@ enum class SignChoice {
 struct VoxelizeOptions {
     GridOptions grid;
     SignChoice sign = SignChoice::automatic;
-    /// Told how much of the work is done, in [0, 1], a few times. Called on the calling thread.
+    /// Called a few times with the share of the work that is done, in [0, 1], on the calling thread.
     std::function<void(double done)> progress = {};
 };
 
-/// Voxelizes in index space, recentred and scaled in double precision, so neither the size of the scene nor
-/// its place matter. Distances are exact but for rounding, to the nearest triangle; solids are where the winding
-/// number is 1 or more. A tree of the triangles is built once and searched for each level where the finer one does
-/// not know the distance, so only the first step touches every triangle. The result does not depend on the number
-/// of threads.
+/// Voxelizes in index space, recentred and scaled in double precision, so neither the size nor the position of the
+/// scene affects precision. Distances are to the nearest triangle, exact up to rounding; a point is inside a solid
+/// if the winding number is 1 or more. The tree of triangles is built once and searched on each level only where
+/// the finer level has no distance, so only the first step touches every triangle. The result does not depend on
+/// the number of threads.
 ///
-/// \throw InputError if no triangle has an area; LimitError as plan_levels().
-GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles,
-                   const VoxelizeOptions& options = {});
+/// \throw InputError if no triangle has nonzero area; LimitError as plan_levels().
+GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options = {});
+
+/// Meshes the zero surface of the finest level in scene units, faces outward: quads, and triangles too if
+/// `adaptivity`, in [0, 1], is above 0 and merges flat regions. Uses OpenVDB's volumeToMesh, which is based on dual
+/// contouring (Ju et al. 2002). The mesh has a hole where the band ends at the surface.
+/// \throw InputError if no distance changes sign, or if the stack is a sheet, whose back is not a zero surface.
+/// Cost: linear in the active voxels.
+Mesh mesh_zero_surface(const GridStack& stack, float adaptivity = 0.0f);
+
+/// Writes the signed distance of each point, in the unit of the points.
+using Sampler = std::function<void(std::span<const Vec3> points, float* distances)>;
+
+/// Meshes the zero surface of a distance function within the cube of side 1 around the origin, on voxels of edge
+/// `voxel`, and ignores what is outside. Samples the centre of each block of 8³ voxels, then each voxel of the
+/// blocks near the surface. \throw InputError if there is no surface.
+Mesh mesh_zero_surface(const Sampler& sample, float voxel);
+
+/// Adds coarser levels, voxelized from the zero surface, until the last reaches `radius` (unit space; infinity is
+/// clamped to the diagonal). With `inside`, replaces a stack for which knows_inside() is false by one of the same
+/// voxel and surface for which it is true. Returns a stack that already satisfies both unchanged. \throw as
+/// mesh_zero_surface(), and LimitError as voxelize().
+GridStack extend_levels(GridStack stack, float radius, bool inside = false);
 
 }

@@ -1,8 +1,7 @@
-#include "alcove/grid/zero_surface.h"
+#include "alcove/grid/voxelize.h"
 
 #include "alcove/base/errors.h"
 #include "alcove/grid/detail/vdb_grid.h"
-#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/triangulate.h"
 
@@ -15,22 +14,21 @@ namespace alcove {
 
 namespace {
 
-/// The zero surface of a grid, each point put in its place by `place(index coordinates)`.
+/// Meshes the zero surface of a grid; `place` maps index coordinates to positions.
 template <class Place>
 Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& place) {
-    const auto in_index_space =
-        grid.copyReplacingTransform(openvdb::math::Transform::createLinearTransform(1.0));
+    const auto in_index_space = grid.copyReplacingTransform(openvdb::math::Transform::createLinearTransform(1.0));
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     std::vector<openvdb::Vec4I> quads;
     openvdb::tools::volumeToMesh(*in_index_space, points, triangles, quads, 0.0, adaptivity);
     if (points.empty())
-        throw InputError("the grid holds no surface: its distances nowhere change their sign");
+        throw InputError("the grid contains no surface: its distances never change sign");
     Mesh mesh;
     mesh.positions.reserve(points.size());
     for (const openvdb::Vec3s& p : points)
         mesh.positions.push_back(place(Vec3d(p.x(), p.y(), p.z())));
-    // OpenVDB's faces turn inward.
+    // OpenVDB's faces point inward.
     for (const openvdb::Vec4I& q : quads)
         mesh.add_face(std::array{q[3], q[2], q[1], q[0]});
     for (const openvdb::Vec3I& t : triangles)
@@ -42,9 +40,8 @@ Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& plac
 
 Mesh mesh_zero_surface(const GridStack& stack, float adaptivity) {
     if (stack.sign == Sign::sheet)
-        throw InputError(
-            "the grid holds an open surface as a sheet, which has no back to be meshed: bake the "
-            "mesh it was made from");
+        throw InputError("the grid stores an open surface as a sheet, which has no back to mesh: bake the "
+                         "mesh that it was voxelized from");
     const LevelSet& finest = stack.levels.front();
     return mesh_of(*finest.grid->grid, adaptivity, [&](const Vec3d& index) {
         const Vec3d unit = Vec3d(finest.origin) + double(finest.voxel) * index;
@@ -55,11 +52,11 @@ Mesh mesh_zero_surface(const GridStack& stack, float adaptivity) {
 Mesh mesh_zero_surface(const Sampler& sample, float voxel) {
     openvdb::initialize();
     constexpr int side = openvdb::FloatTree::LeafNodeType::DIM;
-    const int blocks = static_cast<int>(std::ceil(0.5f / (voxel * side))) + 1; // to either side
-    // Distances beyond are of no use to the surface.
+    const int blocks = static_cast<int>(std::ceil(0.5f / (voxel * side))) + 1; // in each direction
+    // The surface needs no distances beyond this band.
     const float band = 3.0f * voxel, half_diagonal = 0.87f * side * voxel;
     const auto grid = openvdb::FloatGrid::create(band);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET); // tells which way faces turn
+    grid->setGridClass(openvdb::GRID_LEVEL_SET); // determines the orientation of the faces
     std::vector<Vec3> points(openvdb::FloatTree::LeafNodeType::SIZE);
     std::vector<float> distances(points.size());
     for (int x = -blocks; x < blocks; ++x)

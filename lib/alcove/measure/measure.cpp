@@ -16,11 +16,11 @@
 namespace alcove {
 namespace {
 
-/// Of the truth, so that a bake with exact rays does not share its noise.
+/// The seed of the truth, so that a bake with exact rays does not share its noise.
 constexpr std::uint32_t truth_seed = 0x7ea7;
-constexpr std::size_t most_counted = 1024;
+constexpr std::size_t max_counted = 1024;
 
-/// CPU seconds of the process since it was made, and from then on its peak memory.
+/// Measures CPU seconds of the process since construction, and resets its peak memory.
 class ProcessMeter {
   public:
     ProcessMeter() { forget_peak_resident_bytes(); }
@@ -37,18 +37,16 @@ class ProcessMeter {
     double start_ = now();
 };
 
-double map_calls_a_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, const MethodChoice& choice,
-                          float radius) {
+double map_calls_per_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, const MethodChoice& choice,
+                            float radius) {
     const CountingField counting(grid.field);
-    const std::vector<Surfel> surfels = pick(mesh.surfels, evenly(mesh.order, most_counted));
-    bake_channels(surfels, Occluders(counting, mesh.rays), *choice.method, choice.settings(radius),
-                  Channel::ao);
+    const std::vector<Surfel> surfels = pick(mesh.surfels, evenly(mesh.order, max_counted));
+    evaluate(surfels, Occluders(counting, mesh.rays), *choice.method, choice.settings(radius), Channel::ao);
     return static_cast<double>(counting.calls()) / static_cast<double>(surfels.size());
 }
 
-/// The error of every vertex: that of the last one before it on the Morton curve that has a truth.
-std::vector<float> errors_of_all(const MeasuredMesh& mesh, const Truth& truth,
-                                 std::span<const float> values) {
+/// An error for every vertex: that of the last vertex with a truth, up to it on the Morton curve.
+std::vector<float> errors_of_all(const MeasuredMesh& mesh, const Truth& truth, std::span<const float> values) {
     std::vector<float> errors(mesh.surfels.size(), 0.0f);
     std::size_t next = 0;
     float error = 0.0f;
@@ -76,18 +74,16 @@ RaySurface MeasuredMesh::make_rays() {
 }
 
 MeasuredMesh::MeasuredMesh(std::string n, Mesh m)
-    : name(std::move(n)), mesh(std::move(m)), triangles(triangulate(mesh).triangles),
-      frame(frame_of(mesh.box())), surfels(make_surfels(mesh, triangles, frame)),
-      order(spatial_order(surfels)), rays(make_rays()) {
+    : name(std::move(n)), mesh(std::move(m)), triangles(triangulate(mesh).triangles), frame(frame_of(mesh.box())),
+      surfels(make_surfels(mesh, triangles, frame)), order(spatial_order(surfels)), rays(make_rays()) {
     if (order.empty())
         throw InputError(name + ": no vertex has a normal to measure occlusion at");
 }
 
-Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options,
-                 const Progress& progress) {
+Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options, const Progress& progress) {
     Truth truth{radius, evenly(mesh.order, options.most), {}};
-    truth.ao = bake(pick(mesh.surfels, truth.vertices), mesh.rays,
-                    Exact{.radius = radius, .rays = options.rays, .seed = truth_seed}, progress);
+    truth.ao = evaluate_ao(pick(mesh.surfels, truth.vertices), mesh.rays,
+                           Exact{.radius = radius, .rays = options.rays, .seed = truth_seed}, progress);
     return truth;
 }
 
@@ -110,8 +106,8 @@ std::string Measurement::label() const {
     return samples > 0 ? method + ":" + std::to_string(samples) : method;
 }
 
-Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const MeasuredGrid* grid,
-                    const MethodChoice& choice, Pictures pictures, const Progress& progress) {
+Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const MeasuredGrid* grid, const MethodChoice& choice,
+                    Pictures pictures, const Progress& progress) {
     Measurement m;
     m.mesh = mesh.name;
     m.method = choice.method->name;
@@ -127,8 +123,8 @@ Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const Measured
 
     const Occluders occluders = grid ? Occluders(grid->field, mesh.rays) : Occluders(mesh.rays);
     const ProcessMeter meter;
-    const ChannelValues baked = bake_channels(mesh.surfels, occluders, *choice.method,
-                                              choice.settings(truth.radius), Channel::ao, progress);
+    const ChannelValues baked =
+        evaluate(mesh.surfels, occluders, *choice.method, choice.settings(truth.radius), Channel::ao, progress);
     m.occlusion_seconds = meter.seconds();
     m.peak_rss_bytes = peak_resident_bytes();
 
@@ -140,7 +136,7 @@ Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const Measured
         m.grid_bytes = grid->bytes;
         m.grid_seconds = grid->seconds;
         m.peak_rss_bytes = std::max(m.peak_rss_bytes, grid->peak_rss_bytes);
-        m.map_calls = map_calls_a_surfel(mesh, *grid, choice, truth.radius);
+        m.map_calls = map_calls_per_surfel(mesh, *grid, choice, truth.radius);
     }
     std::vector<float> values;
     values.reserve(truth.vertices.size());

@@ -1,24 +1,24 @@
-/// What an estimator costs on a mesh, and how far it is from exact rays.
+/// Measures the cost of an estimator on a mesh and its error against exact rays.
 ///
 ///     const MeasuredMesh mesh("dragon.ply", read_mesh("dragon.ply"));
 ///     const Truth truth = make_truth(mesh, 0.1f);
 ///     const MeasuredGrid grid = build_grid(mesh, 0.1f, 0.0f);
 ///     const Measurement m = measure(mesh, truth, &grid, choose(find_method("classic")));
 ///
-/// Seconds are those of the process's CPU clock, all threads together, of a single pass; so nothing else may
-/// run in the process meanwhile, and no two of these functions at a time.
+/// Times are CPU seconds of the process, summed over all threads, of a single pass. So nothing else may run in the
+/// process meanwhile, and these functions must not run concurrently.
 #pragma once
 
-#include "alcove/bake/error_figures.h"
+#include "alcove/bake/detail/error_figures.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/occlusion/catalog.h"
 
 namespace alcove {
 
-/// A mesh with all that every method on it shares.
+/// A mesh with the data that all methods share.
 struct MeasuredMesh {
-    /// \throw InputError where no vertex has a normal; what RaySurface throws.
+    /// \throw InputError if no vertex has a normal, and what RaySurface throws.
     MeasuredMesh(std::string name, Mesh mesh);
 
     std::string name;
@@ -27,7 +27,7 @@ struct MeasuredMesh {
     Frame frame;
     std::vector<Surfel> surfels;
     std::vector<std::uint32_t> order; ///< spatial_order() of the surfels
-    double tree_seconds = 0.0;        ///< of building `rays`
+    double tree_seconds = 0.0;        ///< time to build `rays`
     RaySurface rays;
 
   private:
@@ -35,50 +35,50 @@ struct MeasuredMesh {
 };
 
 struct TruthOptions {
-    int rays = 1024;           ///< a vertex, >= 1; their own error is about 0.003
-    std::size_t most = 20'000; ///< vertices, >= 1
+    int rays = 1024;           ///< per vertex, >= 1; the error of the truth itself is about 0.003
+    std::size_t most = 20'000; ///< maximum number of vertices, >= 1
 };
 
-/// The reference ao of some vertices: exact rays, of another seed than a bake's.
+/// Reference ao at some vertices, by exact rays with a different seed than a bake.
 struct Truth {
     float radius = 0.0f; ///< unit space; may be infinite
-    std::vector<std::uint32_t>
-        vertices;          ///< all that have a normal, or evenly chosen ones along the Morton curve
-    std::vector<float> ao; ///< one each
+    /// All vertices with a normal, or a subset that is evenly spaced along the Morton curve.
+    std::vector<std::uint32_t> vertices;
+    std::vector<float> ao; ///< one value per entry of `vertices`
 };
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options = {},
                  const Progress& progress = {});
 
-/// A field, made once for all methods that probe it.
+/// A field, built once for all methods that probe it.
 struct MeasuredGrid {
     LevelStack field;
-    float asked_voxel;                ///< unit space; 0 where it was chosen
+    float asked_voxel;                ///< requested voxel, unit space; 0 if chosen automatically
     std::size_t active_voxels, bytes; ///< of all levels
-    double seconds;                   ///< of voxelizing and reading the grids
-    std::size_t peak_rss_bytes;       ///< meanwhile
+    double seconds;                   ///< time to voxelize and to build the field
+    std::size_t peak_rss_bytes;       ///< peak memory of the process during that time
 };
 
-/// Radius and voxel in unit space; a voxel of 0 is chosen, and dense surfaces are clustered, as in a bake.
-/// \throw as voxelize().
+/// Builds the grid as a bake does, with clustered vertices on dense surfaces. Radius and voxel in unit space; a voxel
+/// of 0 is chosen automatically. \throw as voxelize().
 MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, const Progress& progress = {});
 
 struct Measurement {
     std::string mesh, method;
-    int samples = 0; ///< as of MethodChoice
+    int samples = 0; ///< as in MethodChoice
     std::size_t vertices = 0, triangles = 0;
     float radius = 0.0f;      ///< unit space; may be infinite
-    float voxel = 0.0f;       ///< finest, unit space; 0 where no grid was asked
-    float asked_voxel = 0.0f; ///< unit space; 0 where it was chosen
+    float voxel = 0.0f;       ///< finest voxel, unit space; 0 if the method uses no grid
+    float asked_voxel = 0.0f; ///< requested voxel, unit space; 0 if chosen automatically
     std::size_t levels = 0, active_voxels = 0;
     ErrorFigures error;
-    double grid_seconds = 0.0;      ///< 0 where no grid was asked
-    double tree_seconds = 0.0;      ///< of the triangles' hierarchy; 0 where no ray was asked
-    double occlusion_seconds = 0.0; ///< of all vertices
-    double map_calls = 0.0;         ///< a vertex, counted on at most 1,024 of them
-    double rays = 0.0;              ///< a vertex, through the grid or at the mesh
+    double grid_seconds = 0.0;      ///< 0 if the method uses no grid
+    double tree_seconds = 0.0;      ///< time to build the BVH; 0 if the method does not trace the mesh
+    double occlusion_seconds = 0.0; ///< for all vertices
+    double map_calls = 0.0;         ///< per vertex, counted on at most 1,024 of them
+    double rays = 0.0;              ///< per vertex, through the grid or against the mesh
     std::size_t grid_bytes = 0;
-    std::size_t peak_rss_bytes = 0; ///< of the process while grid and occlusion were made; 0 where unknown
-    std::string picture;            ///< the error painted on the mesh, as a data URI; may be empty
+    std::size_t peak_rss_bytes = 0; ///< peak memory of the process during grid build and bake; 0 if unknown
+    std::string picture;            ///< image of the error on the mesh, as a data URI; may be empty
 
     double seconds() const { return grid_seconds + tree_seconds + occlusion_seconds; }
     std::string label() const; ///< "guided:3", "multiscale"
@@ -86,10 +86,9 @@ struct Measurement {
 
 enum class Pictures : bool { none, painted };
 
-/// Bakes all vertices and compares those of the truth, at its radius. `grid` may be null for a method that
-/// asks none. \throw what the method throws.
-Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const MeasuredGrid* grid,
-                    const MethodChoice& choice, Pictures pictures = Pictures::none,
-                    const Progress& progress = {});
+/// Bakes all vertices at the radius of the truth and compares those that have one. `grid` may be null for methods that
+/// use none. \throw what the method throws.
+Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const MeasuredGrid* grid, const MethodChoice& choice,
+                    Pictures pictures = Pictures::none, const Progress& progress = {});
 
 }

@@ -30,13 +30,13 @@ figure { display: inline-block; margin: 0 8px 12px 0 } figcaption { font-size: 1
 )";
 
 constexpr std::string_view introduction =
-    R"(<p>Measured against exact rays, 1,024 a vertex, which are right to about 0.003 themselves. The RMSE, the bias (above
-0: too open), what 99 % of the differences stay below, and the largest; the standard deviation of the truth is the RMSE
-of the best constant guess. Seconds are those of the process's CPU clock, all threads together, of one pass over all
-vertices, with the making of the grid and of the tree for rays where a method needs them: each is made once, and its
-time counted to all that use it. <code>map()</code> calls and rays are a vertex. Lengths are shares of the diagonal of
-the mesh. What is on the Pareto front, so that nothing cheaper has a smaller error, is printed bold in the table; a
-click on a heading sorts by it.</p>
+    R"(<p>The reference is 1,024 exact rays per vertex, whose own error is about 0.003. The table gives the RMSE, the
+bias (positive: too open), the 99th percentile of the differences and the largest difference. The standard deviation
+of the truth is the RMSE of the best constant guess. Times are CPU seconds of the process, summed over all threads, for
+one pass over all vertices. They include building the grid and the BVH for methods that need them; each is built once,
+and its time counts for every method that uses it. <code>map()</code> calls and rays are per vertex. Lengths are
+relative to the diagonal of the mesh. Methods on the Pareto front are bold in the table: no cheaper method has a
+smaller error. Click on a heading to sort by it.</p>
 )";
 
 constexpr std::string_view tail = R"(<script>
@@ -53,7 +53,7 @@ for (const heading of document.querySelectorAll('th')) heading.onclick = () => {
 
 using Group = std::vector<const Measurement*>;
 
-/// The measurements that agree in something, by it.
+/// Groups measurements by the value of `what`.
 template <class F>
 auto grouped_by(const Group& group, const F& what) {
     std::map<std::decay_t<decltype(what(*group.front()))>, Group> groups;
@@ -115,9 +115,9 @@ class Page {
             Group group;
             std::copy_if(all_.begin(), all_.end(), std::back_inserter(group),
                          [&](const Measurement* m) { return m->mesh == mesh; });
-            text += fmt::format("<h2>{}</h2>\n<p>{} vertices, {} triangles; compared at {} vertices.</p>\n",
-                                escaped(mesh), group.front()->vertices, group.front()->triangles,
-                                group.front()->error.count);
+            text +=
+                fmt::format("<h2>{}</h2>\n<p>{} vertices, {} triangles; compared at {} vertices.</p>\n", escaped(mesh),
+                            group.front()->vertices, group.front()->triangles, group.front()->error.count);
             text += charts(group);
             for (const auto& [radius, same] : grouped_by(group, radius_of))
                 text += table(same) + pictures(same);
@@ -125,14 +125,14 @@ class Page {
         return text + std::string(tail);
     }
 
-    std::string chart() const { return times(all_, total, "CPU seconds, all"); }
+    std::string chart() const { return times(all_, total, "CPU seconds, total"); }
 
   private:
     static float radius_of(const Measurement& m) { return m.radius; }
     static float voxel_of(const Measurement& m) { return m.voxel; }
     static float asked_voxel_of(const Measurement& m) { return m.asked_voxel; }
 
-    /// The same settings on all meshes as one.
+    /// Charts of all meshes combined, for settings that were measured on every mesh.
     std::string together() const {
         std::vector<Measurement> sums;
         const auto settings = [](const Measurement& m) {
@@ -155,18 +155,17 @@ class Page {
         Group group;
         for (const Measurement& sum : sums)
             group.push_back(&sum);
-        return fmt::format(
-            "<h2>All {} meshes</h2>\n<p>The root of the mean of their squared RMSE, and the sum "
-            "of their seconds.</p>\n{}",
-            meshes_.size(), charts(group));
+        return fmt::format("<h2>All {} meshes</h2>\n<p>The root mean square of their RMSEs, and the sum of their "
+                           "seconds.</p>\n{}",
+                           meshes_.size(), charts(group));
     }
 
     std::string charts(const Group& group) const {
         std::string text;
         for (const auto& [radius, same] : grouped_by(group, radius_of))
             text += fmt::format("<h3>Error and time at a radius of {}</h3>\n{}{}", percent(radius),
-                                times(same, total, "CPU seconds, all"),
-                                times(same, occlusion, "CPU seconds, occlusion alone"));
+                                times(same, total, "CPU seconds, total"),
+                                times(same, occlusion, "CPU seconds, occlusion only"));
         const Group gridded = with_grid(group);
         if (grouped_by(gridded, asked_voxel_of).size() > 1)
             for (const auto& [radius, same] : grouped_by(gridded, radius_of))
@@ -175,12 +174,12 @@ class Page {
         if (grouped_by(group, radius_of).size() > 1)
             for (const auto& [voxel, same] : grouped_by(group, asked_voxel_of))
                 text += fmt::format("<h3>Error and radius, {}</h3>\n{}",
-                                    voxel > 0.0f ? "voxel " + percent(voxel) : "no voxel asked for",
+                                    voxel > 0.0f ? "voxel " + percent(voxel) : "automatic voxel",
                                     lines(same, "radius, % of the diagonal", radius_of));
         return text;
     }
 
-    /// Error against seconds; a method's numbers of samples are joined.
+    /// Error against seconds; joins the points of a method with different sample counts.
     std::string times(const Group& group, Cost cost, const std::string& title) const {
         Chart chart{.x_title = title, .y_title = "RMSE"};
         const std::vector<std::size_t> front = front_of(group, cost);
@@ -202,9 +201,8 @@ class Page {
         return svg(chart);
     }
 
-    /// Error against a length, a line for each choice of method and samples.
-    std::string lines(const Group& group, const std::string& title,
-                      float (*length)(const Measurement&)) const {
+    /// Error against a length, with one line per method and sample count.
+    std::string lines(const Group& group, const std::string& title, float (*length)(const Measurement&)) const {
         Chart chart{.x_title = title, .y_title = "RMSE"};
         for (const auto& [label, same] : grouped_by(group, [](const Measurement& m) { return m.label(); })) {
             ChartSeries series = series_of(*same.front(), label);
@@ -228,26 +226,25 @@ class Page {
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::sort(order.begin(), order.end(),
                   [&](std::size_t a, std::size_t b) { return group[a]->error.rmse < group[b]->error.rmse; });
-        std::string text = fmt::format(
-            "<table><caption>Radius {}; standard deviation of the truth {:.4f}</caption>\n<thead><tr>",
-            percent(group.front()->radius), group.front()->error.deviation);
+        std::string text =
+            fmt::format("<table><caption>Radius {}; standard deviation of the truth {:.4f}</caption>\n<thead><tr>",
+                        percent(group.front()->radius), group.front()->error.deviation);
         for (const std::string_view heading :
-             {"method", "voxel, %", "RMSE", "bias", "99 %", "max", "grid, s", "tree, s", "occlusion, s",
-              "total, s", "map() calls", "rays", "grid, MB", "peak RSS, MB"})
+             {"method", "voxel, %", "RMSE", "bias", "99 %", "max", "grid, s", "BVH, s", "occlusion, s", "total, s",
+              "map() calls", "rays", "grid, MB", "peak RSS, MB"})
             text += fmt::format("<th>{}</th>", heading);
         text += "</tr></thead>\n<tbody>\n";
         for (const std::size_t i : order) {
             const Measurement& m = *group[i];
             const bool best = std::find(front.begin(), front.end(), i) != front.end();
             text += fmt::format("<tr{}><td>{}</td>", best ? R"( class="front")" : "", escaped(m.label()));
-            text +=
-                fmt::format("<td>{:.3g}</td><td>{:.4f}</td><td>{:+.4f}</td><td>{:.4f}</td><td>{:.4f}</td>",
-                            100.0 * m.voxel, m.error.rmse, m.error.bias, m.error.percentile_99, m.error.max);
+            text += fmt::format("<td>{:.3g}</td><td>{:.4f}</td><td>{:+.4f}</td><td>{:.4f}</td><td>{:.4f}</td>",
+                                100.0 * m.voxel, m.error.rmse, m.error.bias, m.error.percentile_99, m.error.max);
             for (const double seconds : {m.grid_seconds, m.tree_seconds, m.occlusion_seconds, m.seconds()})
                 text += fmt::format("<td>{:.4g}</td>", seconds);
-            text += fmt::format("<td>{:.4g}</td><td>{:.4g}</td><td>{:.1f}</td><td>{:.1f}</td></tr>\n",
-                                m.map_calls, m.rays, static_cast<double>(m.grid_bytes) / 1e6,
-                                static_cast<double>(m.peak_rss_bytes) / 1e6);
+            text +=
+                fmt::format("<td>{:.4g}</td><td>{:.4g}</td><td>{:.1f}</td><td>{:.1f}</td></tr>\n", m.map_calls, m.rays,
+                            static_cast<double>(m.grid_bytes) / 1e6, static_cast<double>(m.peak_rss_bytes) / 1e6);
         }
         return text + "</tbody></table>\n";
     }
@@ -263,9 +260,8 @@ class Page {
                     m->error.rmse);
         if (text.empty())
             return "";
-        return fmt::format("<h3>Where the errors are, at a radius of {}</h3>\n<p>The size of the difference, "
-                           "from white (0) over "
-                           "orange and red to black ({} and above).</p>\n{}",
+        return fmt::format("<h3>Error images at a radius of {}</h3>\n<p>The absolute difference, from white (0) "
+                           "through orange and red to black ({} and above).</p>\n{}",
                            percent(group.front()->radius), largest_drawn_error, text);
     }
 

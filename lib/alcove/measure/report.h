@@ -1,4 +1,4 @@
-/// Measurements as a page to look at.
+/// HTML reports of measurements.
 #pragma once
 
 #include "alcove/measure/measure.h"
@@ -8,9 +8,10 @@
 
 namespace alcove {
 
-/// A whole HTML page that needs no other file and no network. Of every mesh and radius: error against CPU
-/// seconds with the Pareto front, a table sorted by error (a click on a heading sorts by that column), and the
-/// pictures; of several voxels or radii, error against them; of several meshes, all of them together.
+/// A complete HTML page that needs no other file and no network. For every mesh and radius it has a chart of error
+/// against CPU seconds with the Pareto front, a table sorted by error (a click on a heading sorts by that column), and
+/// the error images. With several voxels or radii, also charts of error against these; with several meshes, also
+/// charts of all meshes combined.
 std::string report(std::span<const Measurement> measurements);
 
 /// Error against CPU seconds with the Pareto front, as an <svg> element.

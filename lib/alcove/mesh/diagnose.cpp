@@ -14,7 +14,7 @@
 namespace alcove {
 namespace {
 
-/// The mesh as a surface: what both examinations start from.
+/// The mesh as a surface, which both closedness() and diagnose() examine.
 struct Surface {
     explicit Surface(const Mesh& mesh)
         : joined(weld(mesh.positions)), faces(sound_faces(mesh, joined)), edges(faces, mesh.vertex_count()) {}
@@ -31,11 +31,12 @@ std::size_t forward_uses(std::span<const EdgeUse> uses) {
     return count;
 }
 
-/// Cones from the centre of the mesh over its faces, each face spanned by its edges and the mean of its
-/// corners so that no corner comes first; in units of the diagonal cubed.
+/// The sum of the signed volumes of cones from the centre of the mesh over its faces, in units of the diagonal
+/// cubed. A face is spanned by its edges and the mean of its corners, so that the result does not depend on the
+/// first corner.
 struct Volume {
     double sum = 0.0;
-    double bound = 0.0; // what the terms would give if nothing in them cancelled
+    double bound = 0.0; // the sum without cancellation
 
     void add(const Mesh& mesh, const Frame& frame, std::span<const std::uint32_t> face) {
         const double scale = 1.0 / frame.diagonal;
@@ -54,7 +55,7 @@ struct Volume {
         sum += glm::dot(mean, normal) / 6.0;
         bound += glm::length(mean) * areas / 6.0;
     }
-    /// A folded sheet encloses nothing; what rounding leaves of it is no sign.
+    /// The sign of rounding errors does not count: a folded sheet encloses no volume.
     bool negative() const { return sum < -1e-12 * bound; }
 };
 
@@ -109,9 +110,9 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
 }
 
 std::size_t boundary_edges_as_indexed(const Mesh& mesh) {
-    std::vector<std::uint32_t> apart(mesh.vertex_count());
-    std::iota(apart.begin(), apart.end(), 0u);
-    const SoundFaces faces = sound_faces(mesh, apart);
+    std::vector<std::uint32_t> separate(mesh.vertex_count());
+    std::iota(separate.begin(), separate.end(), 0u);
+    const SoundFaces faces = sound_faces(mesh, separate);
     std::size_t count = 0;
     EdgeTable(faces, mesh.vertex_count()).for_each_edge([&](std::span<const EdgeUse> uses) {
         count += uses.size() == 1;
@@ -119,11 +120,11 @@ std::size_t boundary_edges_as_indexed(const Mesh& mesh) {
     return count;
 }
 
-/// Corners of one vertex whose faces meet across edges form a fan.
+/// Counts non-manifold vertices and boundary loops. Corners of a vertex whose faces share an edge there form a fan.
 void examine_fans(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
     const SoundFaces& faces = surface.faces;
     DisjointSets fans(faces.corners.size());
-    std::vector<std::uint32_t> rims; // the corners where open edges start
+    std::vector<std::uint32_t> open_corners; // where open edges start
     surface.edges.for_each_edge([&](std::span<const EdgeUse> uses) {
         const auto low = [&](const EdgeUse& u) { return u.forward ? u.corner : faces.next(u.corner); };
         const auto high = [&](const EdgeUse& u) { return u.forward ? faces.next(u.corner) : u.corner; };
@@ -132,19 +133,19 @@ void examine_fans(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
             fans.join(high(uses[0]), high(use));
         }
         if (uses.size() == 1)
-            rims.push_back(uses[0].corner);
+            open_corners.push_back(uses[0].corner);
     });
     std::vector<std::uint32_t> fans_of(mesh.vertex_count(), 0);
     for (std::uint32_t corner = 0; corner < faces.corners.size(); ++corner)
         if (fans.find(corner) == corner)
             result.non_manifold_vertices += ++fans_of[faces.corners[corner]] == 2;
 
-    // Open edges that meet in a fan follow each other around a hole.
-    for (const std::uint32_t corner : rims)
+    // Open edges that meet in a fan are consecutive around a hole.
+    for (const std::uint32_t corner : open_corners)
         fans.join(corner, faces.next(corner));
     std::vector<std::uint32_t> loops;
-    loops.reserve(rims.size());
-    for (const std::uint32_t corner : rims)
+    loops.reserve(open_corners.size());
+    for (const std::uint32_t corner : open_corners)
         loops.push_back(fans.find(corner));
     std::sort(loops.begin(), loops.end());
     result.boundary_loops = static_cast<std::size_t>(std::unique(loops.begin(), loops.end()) - loops.begin());
@@ -155,9 +156,7 @@ std::size_t faces_without_area(const Mesh& mesh, const SoundFaces& faces) {
     std::size_t count = 0;
     for (std::size_t f = 0; f < faces.count(); ++f) {
         const auto face = faces.face(f);
-        const auto at = [&](std::uint32_t v) {
-            return scale * (mesh.positions[v] - mesh.positions[face[0]]);
-        };
+        const auto at = [&](std::uint32_t v) { return scale * (mesh.positions[v] - mesh.positions[face[0]]); };
         Vec3d normal(0.0), a = at(face[1]);
         double bound = 0.0;
         for (std::size_t i = 2; i < face.size(); ++i) {
@@ -178,7 +177,7 @@ std::size_t count_duplicates(const SoundFaces& faces) {
         std::sort(sorted.begin(), sorted.end());
         return sorted;
     };
-    // A sum of hashed vertices does not ask for their order; equal sums are looked at closely.
+    // A sum of hashes is independent of the order of the vertices; faces with equal sums are compared.
     struct Entry {
         std::uint64_t sum;
         std::uint32_t face;
@@ -238,8 +237,7 @@ Diagnosis diagnose(const Mesh& mesh) {
     const Surface surface(mesh);
     Diagnosis result{closedness_of(mesh, surface)};
     count_elements(mesh, surface, result);
-    result.boundary_edges =
-        result.coincident_vertices > 0 ? boundary_edges_as_indexed(mesh) : result.open_edges;
+    result.boundary_edges = result.coincident_vertices > 0 ? boundary_edges_as_indexed(mesh) : result.open_edges;
     examine_fans(mesh, surface, result);
     result.degenerate_faces = surface.faces.collapsed + faces_without_area(mesh, surface.faces);
     result.duplicate_faces = count_duplicates(surface.faces);
@@ -248,8 +246,7 @@ Diagnosis diagnose(const Mesh& mesh) {
 
 std::vector<std::string> describe(const Diagnosis& d) {
     std::vector<std::string> lines;
-    const auto say = [&](std::size_t count, std::string_view one, std::string_view many,
-                         std::string_view meaning) {
+    const auto say = [&](std::size_t count, std::string_view one, std::string_view many, std::string_view meaning) {
         if (count > 0)
             lines.push_back(fmt::format("{} {}: {}", count, count == 1 ? one : many, meaning));
     };
@@ -260,32 +257,31 @@ std::vector<std::string> describe(const Diagnosis& d) {
                             ? "closed: inside and outside are known"
                             : fmt::format("closed in {} parts: inside and outside are known", d.components));
     else if (d.open_edges > 0)
-        lines.push_back(
-            fmt::format("not closed, {} open {} around {} {}: distances tell no inside from outside; "
-                        "fill the holes for signed ones",
-                        d.open_edges, d.open_edges == 1 ? "edge" : "edges", d.boundary_loops,
-                        d.boundary_loops == 1 ? "hole or rim" : "holes or rims"));
+        lines.push_back(fmt::format("not closed, {} open {} around {} {}: distances cannot distinguish inside from "
+                                    "outside; fill the holes for signed distances",
+                                    d.open_edges, d.open_edges == 1 ? "edge" : "edges", d.boundary_loops,
+                                    d.boundary_loops == 1 ? "hole or boundary" : "holes or boundaries"));
     else if (d.watertight())
-        lines.push_back("without holes, but not all faces turn the same side out");
+        lines.push_back("without holes, but the faces are not oriented consistently");
     else
-        lines.push_back(fmt::format("not closed, walls end on others along {} edges", d.odd_edges));
+        lines.push_back(fmt::format("not closed, walls end at other walls along {} edges", d.odd_edges));
     say(d.flipped_edges, "flipped edge", "flipped edges",
-        "neighbouring faces disagree on the outside and vertex normals cancel there; orient the faces alike");
+        "neighbouring faces have opposite orientations and vertex normals cancel there; orient the faces "
+        "consistently");
     say(d.inverted_components, "part inside out", "parts inside out",
         "normals point into the solid; flip its faces unless it is the wall of a cavity");
     say(d.non_manifold_edges, "non-manifold edge", "non-manifold edges",
-        "three or more faces meet; harmless to distances, normals average all of them");
+        "three or more faces meet; harmless for distances, but normals average all of them");
     say(d.non_manifold_vertices, "non-manifold vertex", "non-manifold vertices",
-        "sheets touch in a point; normals average both");
+        "surfaces touch at a point; normals average both");
     say(d.seam_edges(), "seam edge", "seam edges",
-        "closed but for vertices kept apart; area-weighted normals break there, bring normals or merge "
-        "vertices");
-    say(d.degenerate_faces, "face without area", "faces without area", "they count for nothing");
-    say(d.duplicate_faces, "duplicate face", "duplicate faces",
-        "remove them: they may flip inside and outside");
-    say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "without a normal, left open");
+        "closed if coincident vertices are merged; area-weighted normals are discontinuous there, provide "
+        "normals or merge the vertices");
+    say(d.degenerate_faces, "face without area", "faces without area", "they are ignored");
+    say(d.duplicate_faces, "duplicate face", "duplicate faces", "remove them: they may swap inside and outside");
+    say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "they have no normal and get ao = 1");
     say(d.non_finite_vertices, "vertex that is not finite", "vertices that are not finite",
-        "left out with their faces, which leaves holes; mend the coordinates");
+        "left out with their faces, which leaves holes; fix the coordinates");
     return lines;
 }
 

@@ -20,7 +20,7 @@ Box Mesh::box() const {
 
 void Mesh::set_attribute(Attribute attribute) {
     if (attribute.values.size() != vertex_count() * static_cast<std::size_t>(attribute.components))
-        throw std::invalid_argument("attribute '" + attribute.name + "' does not have one value a vertex");
+        throw std::invalid_argument("attribute '" + attribute.name + "' does not have one value per vertex");
     const auto same = std::find_if(attributes.begin(), attributes.end(),
                                    [&](const Attribute& a) { return a.name == attribute.name; });
     if (same != attributes.end())
@@ -30,8 +30,8 @@ void Mesh::set_attribute(Attribute attribute) {
 }
 
 const Attribute* Mesh::find_attribute(std::string_view name) const {
-    const auto found = std::find_if(attributes.begin(), attributes.end(),
-                                    [&](const Attribute& a) { return a.name == name; });
+    const auto found =
+        std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == name; });
     return found == attributes.end() ? nullptr : &*found;
 }
 

@@ -1,4 +1,4 @@
-/// A polygon mesh as an indexed soup: what its file held, in the file's order, and the values added to it.
+/// A polygon mesh as an indexed face set: the contents of its file, in the file's order, and values added to it.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -12,29 +12,32 @@
 
 namespace alcove {
 
-class SourceDocument; // what the file held beyond the mesh itself, kept to be written back (mesh/source.h)
+class SourceDocument; // the other contents of the file, kept to be written back (mesh/detail/source.h)
 
-/// Values added to the vertices: `components` floats a vertex, in vertex order.
+/// Values added to the vertices: `components` floats per vertex, in vertex order.
 struct Attribute {
     std::string name;
     int components = 1;
     std::vector<float> values;
 };
 
-/// Vertices and faces keep the count and order of the file, whatever is wrong with them: non-finite vertices
-/// stay in place, faces of fewer than three corners stay polygons, coincident vertices stay apart. Stages
-/// that need sound geometry (triangulate, vertex_normals, voxelize) leave the rest out and count it.
+/// Vertices and faces keep the count and order of the file, even if they are invalid: non-finite vertices, faces of
+/// fewer than three corners and coincident vertices are kept. Functions that need valid geometry (triangulate,
+/// area_weighted_normals, voxelize) leave out the rest and count it.
 struct Mesh {
     std::vector<Vec3d> positions;                 ///< scene units
-    std::vector<Vec3> normals;                    ///< empty, or one a vertex: the file's, unit length or zero
+    std::vector<Vec3> normals;                    ///< empty, or one per vertex: those of the file, unit length or zero
     std::vector<std::uint32_t> face_begin{0};     ///< faces + 1 offsets into `corners`
-    std::vector<std::uint32_t> corners;           ///< vertex indices, face after face; all in range
-    std::vector<Vec2> vertex_uvs;                 ///< empty, or one a vertex
-    std::vector<Vec2> corner_uvs;                 ///< empty, or one a corner; never beside vertex_uvs
-    std::vector<Color> vertex_colors;             ///< empty, or one a vertex: the file's
-    std::vector<Color> face_colors;               ///< empty, or one a face: the file's
-    std::vector<Attribute> attributes;            ///< added values, written beside what the file held
-    std::vector<std::string> warnings;            ///< what reading had to leave out, in words with counts
+    std::vector<std::uint32_t> corners;           ///< vertex indices of one face after another; all in range
+    std::vector<Vec2> vertex_uvs;                 ///< empty, or one per vertex
+    std::vector<Vec2> corner_uvs;                 ///< empty, or one per corner; never together with vertex_uvs
+    std::vector<Color> vertex_colors;             ///< empty, or one per vertex: those of the file
+    std::vector<Color> face_colors;               ///< empty, or one per face: those of the file
+    std::vector<Attribute> attributes;            ///< added values, written in addition to those of the file
+    std::vector<std::string> warnings;            ///< what reading had to leave out, as messages with counts
+    std::vector<Color> added_colors;              ///< empty, or one per vertex: replace those of the file
+    std::vector<std::string> added_comments;      ///< provenance lines to write; the first word is the program
+    std::string name;                             ///< the file that it was read from, for messages; may be empty
     std::string_view format;                      ///< "PLY", "OBJ", "OFF", "STL"; empty if not from a file
     std::shared_ptr<const SourceDocument> source; ///< null for a mesh that was not read from a file
 
@@ -45,11 +48,11 @@ struct Mesh {
     }
     void add_face(std::span<const std::uint32_t> vertices);
 
-    /// The box around all finite vertices.
+    /// The bounding box of all finite vertices.
     Box box() const;
 
-    /// Adds the attribute, or replaces the one of that name. \throw std::invalid_argument if its length is
-    /// not components × vertices.
+    /// Adds the attribute, or replaces the one of that name. \throw std::invalid_argument if the number of values
+    /// is not components × vertices.
     void set_attribute(Attribute attribute);
     const Attribute* find_attribute(std::string_view name) const;
 };

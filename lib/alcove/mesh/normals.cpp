@@ -14,7 +14,7 @@ constexpr std::size_t grain = 1 << 15;
 
 struct Sum {
     Vec3d vector{0.0};
-    double in_line = 0.0;
+    double lengths = 0.0;
 };
 
 /// The power of two that brings a positive number near 1.
@@ -28,7 +28,11 @@ Vec3 unit_or_zero(const Vec3d& n) {
     const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
     if (!is_finite(n) || largest == 0.0)
         return Vec3(0.0f);
-    // Else squares of the smallest and the largest are out of range.
+    // A float vector that is a unit vector but for its rounding stays as it is, so that normalizing twice changes nothing.
+    constexpr double rounding = 2.5e-7;
+    if (Vec3d(Vec3(n)) == n && std::fabs(glm::dot(n, n) - 1.0) <= rounding)
+        return Vec3(n);
+    // Scale first, as squares of very small and very large numbers are out of range.
     const Vec3d scaled = power_towards_one(largest) * n;
     return Vec3(scaled / glm::length(scaled));
 }
@@ -40,8 +44,7 @@ double exact_scale(const Mesh& mesh) {
 std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
     const double scale = exact_scale(mesh);
 
-    // One thread: the order of the additions is the result, and the loop waits for memory rather than
-    // arithmetic.
+    // Single-threaded: the result depends on the order of the additions, and the loop is bound by memory anyway.
     std::vector<Sum> sums(mesh.vertex_count());
     for (const Triangle& t : triangles) {
         const Vec3d& origin = mesh.positions[t[0]];
@@ -52,14 +55,14 @@ std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triang
             continue;
         for (const std::uint32_t v : t) {
             sums[v].vector += cross;
-            sums[v].in_line += length;
+            sums[v].lengths += length;
         }
     }
 
     std::vector<Vec3> normals(mesh.vertex_count());
     parallel_for(normals.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const bool is_direction = glm::length(sums[v].vector) > cancelled * sums[v].in_line;
+            const bool is_direction = glm::length(sums[v].vector) > cancelled * sums[v].lengths;
             normals[v] = is_direction ? unit_or_zero(sums[v].vector) : Vec3(0.0f);
         }
     });
@@ -69,7 +72,7 @@ std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triang
 std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
                                  NormalSource source) {
     if (source == NormalSource::file && mesh.normals.empty())
-        throw InputError("the mesh has no normals of its own; use --normals area");
+        throw InputError("has no normals of its own: use --normals area");
     const bool from_file = source != NormalSource::area && !mesh.normals.empty();
 
     std::vector<Vec3> normals(mesh.vertex_count(), Vec3(0.0f));

@@ -1,9 +1,9 @@
-/// The normals of a mesh, and its vertices as surfels.
+/// Computes the normals of a mesh, and its vertices as surfels.
 ///
-/// The area-weighted normal of a vertex is the direction of the sum of the cross products of its triangles
-/// (Gouraud's average, weighted by area). It is zero where that sum is shorter than 1e-12 of the sum of its
-/// terms' lengths; a triangle whose sides leave its first corner at a sine below `flat_sine` has no area and
-/// no say.
+/// The area-weighted normal of a vertex is the normalized sum of the cross products of its triangles: the average
+/// of Gouraud (1971), weighted by area. It is zero if the sum is shorter than 1e-12 of the sum of the
+/// lengths of its terms. A triangle whose sides meet at its first corner with a sine of `flat_sine` or less counts
+/// as having no area and is ignored.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -11,29 +11,29 @@
 namespace alcove {
 
 enum class NormalSource {
-    automatic, ///< the file's, and where it has none (or a zero one) the area-weighted normal
-    file,      ///< the file's; zero where the file has zero
+    automatic, ///< those of the file; area-weighted where the file has none or zero
+    file,      ///< those of the file; zero where the file has zero
     area,      ///< area-weighted
 };
 
-/// What rounding leaves of the sine between two sides in line.
+/// The rounding error of the sine between two collinear sides.
 inline constexpr double flat_sine = 1e-14;
 
-/// At unit length, of whatever length it is; zero where it is zero or not finite.
+/// Normalizes a vector of any length; zero if it is zero or not finite.
 Vec3 unit_or_zero(const Vec3d& n);
 
-/// The power of two that brings the diagonal of the mesh near 1: scaling by it rounds nothing.
+/// The power of two that scales the diagonal of the mesh to near 1. Scaling by it is exact.
 double exact_scale(const Mesh& mesh);
 
-/// One a vertex: unit length, or zero where no triangle uses the vertex or its triangles cancel.
+/// One normal per vertex: unit length, or zero if no triangle uses the vertex or its triangles cancel.
 ///
-/// Sums run in double, in units of the diagonal of the mesh, in triangle order: neither scale nor the number
-/// of threads matters. Triangles hold finite vertices only (as triangulate() gives). Cost: linear, about
-/// 30 ns a triangle.
+/// Sums are in double, in units of the diagonal of the mesh and in triangle order, so the result depends neither on
+/// the scale nor on the number of threads. All vertices of the triangles must be finite, as those of triangulate()
+/// are. Cost: linear, about 30 ns per triangle.
 std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles);
 
-/// One a vertex: its place in the unit space of `frame` and its normal. A vertex that is not finite is at the
-/// origin and without a normal. \throw InputError if `source` is `file` and the mesh has no normals.
+/// One surfel per vertex: its position in the unit space of `frame` and its normal. A vertex that is not finite is
+/// put at the origin without a normal. \throw InputError if `source` is `file` and the mesh has no normals.
 std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
                                  NormalSource source = NormalSource::automatic);
 

@@ -37,27 +37,25 @@ const Format& format_of(const FileBytes& file) {
         return stl;
     if (extension == ".obj" || begins_as_obj(file))
         return obj;
-    file.fail("is no mesh of a known format; PLY, OBJ, OFF and STL can be read");
+    file.fail("is not a mesh in a known format; PLY, OBJ, OFF and STL can be read");
 }
 
 std::string points_without_faces(std::size_t count) {
-    return "holds " + counted(count, "point", "points") +
-           " but no faces; a surface is needed: reconstruct one first";
+    return "contains " + counted(count, "point", "points") + " but no faces; reconstruct a surface first";
 }
 
-void warn_of_odd_geometry(Mesh& mesh) {
-    const auto non_finite = std::count_if(mesh.positions.begin(), mesh.positions.end(),
-                                          [](const Vec3d& p) { return !is_finite(p); });
+void warn_of_invalid_geometry(Mesh& mesh) {
+    const auto non_finite =
+        std::count_if(mesh.positions.begin(), mesh.positions.end(), [](const Vec3d& p) { return !is_finite(p); });
     if (non_finite > 0)
-        mesh.warnings.push_back(
-            counted(static_cast<std::size_t>(non_finite), "vertex has", "vertices have") +
-            " coordinates that are not finite numbers; kept, but no surface is built on them");
+        mesh.warnings.push_back(counted(static_cast<std::size_t>(non_finite), "vertex has", "vertices have") +
+                                " coordinates that are not finite numbers; kept, but faces that use them are ignored");
     std::size_t degenerate = 0;
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
         degenerate += mesh.face(f).size() < 3;
     if (degenerate > 0)
         mesh.warnings.push_back(counted(degenerate, "face has", "faces have") +
-                                " fewer than three corners; kept, but no surface is built on them");
+                                " fewer than three corners; kept, but ignored");
 }
 
 }
@@ -66,17 +64,17 @@ Mesh read_bytes(const FileBytes& file) {
     const Format& format = format_of(file);
     Mesh mesh = format.read(file);
     mesh.format = format.name;
+    mesh.name = file.path().string();
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
     if (mesh.face_count() == 0)
         file.fail(points_without_faces(mesh.vertex_count()));
     const double diagonal = mesh.box().diagonal();
     if (std::isinf(diagonal))
-        file.fail(
-            "has vertices that lie further apart than numbers reach; scale it down, or export it again");
+        file.fail("has vertices farther apart than numbers can represent; scale it down, or export it again");
     if (std::fpclassify(diagonal) == FP_SUBNORMAL)
-        file.fail("has vertices that lie nearer together than numbers tell; scale it up, or export it again");
-    warn_of_odd_geometry(mesh);
+        file.fail("has vertices closer together than numbers can resolve; scale it up, or export it again");
+    warn_of_invalid_geometry(mesh);
     return mesh;
 }
 

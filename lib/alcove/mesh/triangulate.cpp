@@ -11,7 +11,7 @@ namespace {
 
 using Vec2d = glm::dvec2;
 
-/// Below this share of the squared extent a turn counts as straight: rounding, not shape.
+/// A turn below this share of the squared extent counts as straight: it may be rounding error.
 constexpr double flat = 1e-14;
 
 double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
@@ -29,8 +29,8 @@ Vec3d normal_of(std::span<const Vec3d> polygon) {
     return normal;
 }
 
-/// Whether the triangles around the first corner all face along `normal` and span less than a half turn
-/// there. With four corners the half turn is no condition: two angles stay below a full one by themselves.
+/// Whether the triangles around the first corner all face along `normal` and together span less than 180° there. A quad
+/// does not need the second condition: its two angles are always less than 360° together.
 bool is_fan(std::span<const Vec3d> polygon, const Vec3d& normal) {
     const Vec3d first = polygon[1] - polygon[0];
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -43,7 +43,7 @@ bool is_fan(std::span<const Vec3d> polygon, const Vec3d& normal) {
     return true;
 }
 
-/// Cuts one polygon after the other; keeps its buffers between them.
+/// Triangulates polygons; reuses its buffers.
 class PolygonCutter {
   public:
     explicit PolygonCutter(const Mesh& mesh) : mesh_(mesh) {}
@@ -62,13 +62,13 @@ class PolygonCutter {
     }
 
   private:
-    /// Coordinates about the first corner, in units of the extent: no scale or offset is left in them.
+    /// Loads coordinates relative to the first corner, in units of the extent.
     void load() {
         local_.clear();
         const Vec3d origin = 0.25 * mesh_.positions[face_[0]];
         double extent = 0.0;
         for (const std::uint32_t v : face_) {
-            // The quarter keeps differences of the largest doubles finite.
+            // The factor keeps differences of the largest doubles finite.
             const Vec3d p = 0.25 * mesh_.positions[v] - origin;
             extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
             local_.push_back(p);
@@ -118,12 +118,10 @@ class PolygonCutter {
         emit(before, i, after);
         next_[before] = after;
         previous_[after] = before;
-        // Only corners that turn inwards can lie in an ear; clipping makes a corner less reflex, never more.
-        std::erase_if(reflex_, [&](std::size_t r) {
-            return r == i || ((r == before || r == after) && turn_at(r) > flat);
-        });
-        // Of a simple polygon the ears elsewhere stay what they are; corners that touched an ear's edge may
-        // not.
+        // Only reflex corners can be inside an ear, and clipping never makes a corner reflex.
+        std::erase_if(reflex_,
+                      [&](std::size_t r) { return r == i || ((r == before || r == after) && turn_at(r) > flat); });
+        // In a simple polygon this does not affect other ears, unless a corner touches the edge of an ear.
         set_ear(i, false);
         set_ear(before, is_ear(before));
         set_ear(after, is_ear(after));
@@ -155,7 +153,7 @@ class PolygonCutter {
             }
             if (!ear_[tip])
                 tip = sharpest_from(at); // the outline crosses or touches itself
-            // Going on beyond the next corner spreads the cuts instead of fanning them around one vertex.
+            // Skip the next corner, so that the cuts are spread rather than fanned around one vertex.
             at = next_[next_[tip]];
             clip(tip);
         }
@@ -175,7 +173,7 @@ class PolygonCutter {
         } while (i != start);
     }
 
-    /// The next ear, or `start` where none is known.
+    /// The next ear, or `start` if none is known.
     std::size_t ear_from(std::size_t start) const {
         std::size_t i = start;
         while (ears_ > 0 && !ear_[i])
@@ -198,7 +196,7 @@ class PolygonCutter {
     std::vector<Vec2d> flat_;
     std::vector<std::size_t> previous_, next_, reflex_;
     std::vector<char> ear_;
-    std::size_t ears_ = 0; ///< of those that are left
+    std::size_t ears_ = 0; ///< ears that remain
 };
 
 /// Triangulates the faces [begin, end).
@@ -235,10 +233,10 @@ Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t b
 
 Triangulation triangulate(const Mesh& mesh) {
     const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
-    // Triangles take less time than the threads would to share them and put the parts together.
+    // For triangles, sharing the work and joining the results would take longer than the work itself.
     if (mesh.corners.size() <= 3 * mesh.face_count())
         return triangulate_range(mesh, all_finite, 0, mesh.face_count());
-    // Blocks of about as many corners, so that a few huge polygons are shared too.
+    // Blocks with about equal numbers of corners, so that a few huge polygons are shared too.
     const std::size_t grain = 1 + (mesh.face_count() << 15) / (mesh.corners.size() + 1);
     std::vector<Triangulation> parts((mesh.face_count() + grain - 1) / grain);
     parallel_for(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {

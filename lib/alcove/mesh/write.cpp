@@ -12,7 +12,7 @@ namespace alcove {
 
 namespace {
 
-using Writer = std::vector<std::string> (*)(const Mesh&, const std::filesystem::path&, const WriteOptions&);
+using Writer = std::vector<std::string> (*)(const Mesh&, const std::filesystem::path&);
 
 Writer writer_for(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
@@ -30,13 +30,12 @@ bool can_write_mesh(const std::filesystem::path& file) {
     return true;
 }
 
-std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file,
-                                    const WriteOptions& options) {
-    if (!options.colors.empty() && options.colors.size() != mesh.vertex_count())
-        throw std::invalid_argument("the colours to write are not one a vertex");
+std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
+    if (!mesh.added_colors.empty() && mesh.added_colors.size() != mesh.vertex_count())
+        throw std::invalid_argument("the number of colours to write is not that of the vertices");
     if (const Writer write = writer_for(file))
-        return write(mesh, file, options);
-    throw InputError(file.string() + ": meshes are written as .ply or .obj; name the output so");
+        return write(mesh, file);
+    throw InputError(file.string() + ": meshes are written as .ply or .obj; use one of these extensions");
 }
 
 }

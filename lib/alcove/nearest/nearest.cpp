@@ -2,7 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alcove/nearest/nearest.cpp"
-#include <hwy/foreach_target.h> // compiles this file once a target
+#include <hwy/foreach_target.h> // compiles this file once per target
 
 #include "alcove/nearest/detail/leaf_search-inl.h"
 #include "alcove/nearest/detail/octant_search-inl.h"
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alcove {
 namespace HWY_NAMESPACE {
 
-/// The centres of the octants, themselves voxels where the block is of 2³.
+/// The centres of the octants; these are the voxels if the block has 2³.
 HWY_INLINE EightPoints octants_of(const Block& block) {
     const int size = block.size / 2;
     return {(2 * block.low + (size - 1)) * block.stride, 2 * size * block.stride};
@@ -39,12 +39,12 @@ HWY_INLINE Octants known_octants(const TriangleTree& tree, const Block& block, c
 
 using Parts = std::array<std::span<const std::uint32_t>, eight>;
 
-/// What the octants get, until the sieve shares out again.
-HWY_INLINE Parts split_nodes(const TriangleTree& tree, std::span<const std::uint32_t> nodes,
-                             const Block& block, const Octants& octants, Sieve& sieve) {
+/// The nodes of each octant, valid until the next split with this sieve.
+HWY_INLINE Parts split_nodes(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
+                             const Octants& octants, Sieve& sieve) {
     sieve.sift(tree, nodes, diagonal * half_of(block),
-               [&](std::uint32_t node) HWY_ATTR { return octants.wanting(tree.nodes[node]); });
-    return sieve.shares().share_out();
+               [&](std::uint32_t node) HWY_ATTR { return octants.mask(tree.nodes[node]); });
+    return sieve.selected().per_octant();
 }
 
 Parts split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
@@ -53,32 +53,31 @@ Parts split_block(const TriangleTree& tree, std::span<const std::uint32_t> nodes
     return split_nodes(tree, nodes, block, known_octants(tree, block, reach, near), sieve);
 }
 
-void split_once(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block,
-                float reach, std::array<Nodes, eight>& parts) {
-    const float alike[eight] = {reach, reach, reach, reach, reach, reach, reach, reach};
+void split_once(const TriangleTree& tree, std::span<const std::uint32_t> nodes, const Block& block, float reach,
+                std::array<Nodes, eight>& parts) {
+    const float reaches[eight] = {reach, reach, reach, reach, reach, reach, reach, reach};
     Sieve sieve;
-    const Parts shares = split_block(tree, nodes, block, alike, sieve);
+    const Parts per_octant = split_block(tree, nodes, block, reaches, sieve);
     for (std::size_t i = 0; i < eight; ++i)
-        parts[i].assign(shares[i].begin(), shares[i].end());
+        parts[i].assign(per_octant[i].begin(), per_octant[i].end());
 }
 
 HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
     return low + size * Index3(i >> 2, i >> 1 & 1, i & 1);
 }
 
-/// What the search of a brick fills anew, kept by each thread from one to the next: to ask for memory takes longer than to
-/// fill it.
+/// Buffers of the search of a brick. Each thread reuses them, as allocating them takes longer than filling them.
 struct Workspace {
-    Sieve of_brick, of_block; // of 4³
+    Sieve of_brick, of_block; // a block of 4³
     LeafSearch leaves;
-    std::array<OctantSearch, eight> octants; // of the block
+    std::array<OctantSearch, eight> octants; // of a block of 4³
 };
 
-/// The voxels of a brick, from its nodes down.
+/// Searches the voxels of a brick, from the nodes of the brick down.
 class BrickSearch {
   public:
-    BrickSearch(const TriangleTree& tree, const Block& brick, const BrickLimits& limits,
-                NearestTriangles& nearest, Workspace& work)
+    BrickSearch(const TriangleTree& tree, const Block& brick, const BrickLimits& limits, NearestTriangles& nearest,
+                Workspace& work)
         : tree_(tree), brick_(brick), limits_(limits), nearest_(nearest), work_(work) {
         for (std::size_t row = 0; row < brick_rows; ++row) {
             unsigned bits = 0;
@@ -98,7 +97,7 @@ class BrickSearch {
     }
 
   private:
-    /// Those of a block of 4³.
+    /// Searches the voxels of a block of 4³.
     void search_octants(std::span<const std::uint32_t> nodes, const Index3& low) {
         const Block block{brick_.low + low, brick_size / 2, brick_.stride};
         float reach[eight];
@@ -115,41 +114,41 @@ class BrickSearch {
             first[i] = leaf_near(tree_, near.node[i], centres.point(i));
             OctantSearch& search = work_.octants[static_cast<std::size_t>(i)];
             search.begin(voxels[i]);
-            search.look(tree_, tree_.nodes[first[i]].child);
-            octants.know(i, search.way());
+            search.add_leaf(tree_, tree_.nodes[first[i]].child);
+            octants.add_known(i, search.nearest_offset());
         }
         const Parts parts = split_nodes(tree_, nodes, block, octants, work_.of_block);
         for (int i = 0; i < eight; ++i) {
-            const auto& wanted = parts[static_cast<std::size_t>(i)];
-            if (wanted.empty())
+            const auto& candidates = parts[static_cast<std::size_t>(i)];
+            if (candidates.empty())
                 continue;
             const Index3 at = octant(low, 2, i);
             NearestOfEight best(reach[i], needed(at));
             OctantSearch& search = work_.octants[static_cast<std::size_t>(i)];
-            search.take_nearest(tree_, best);
-            if (are_few_leaves(wanted))
-                for (const std::uint32_t leaf : wanted) {
+            search.update_with_nearest(tree_, best);
+            if (are_few_leaves(candidates))
+                for (const std::uint32_t leaf : candidates) {
                     if (leaf != first[i])
-                        search.look(tree_, tree_.nodes[leaf].child);
+                        search.add_leaf(tree_, tree_.nodes[leaf].child);
                 }
             else
-                work_.leaves.look(tree_, wanted, first[i], voxels[i], work_.of_block, search, best);
-            search.take_others(tree_, best);
-            keep(best, at);
+                work_.leaves.search(tree_, candidates, first[i], voxels[i], work_.of_block, search, best);
+            search.update_with_others(tree_, best);
+            store(best, at);
         }
     }
 
-    // To choose among no more than this costs more than to look at all of them. Measured on a scan with 1 to 28
-    // triangles a voxel. Nodes that are no leaves may hold far more: on the coarsest levels few hold the whole surface.
+    // Up to this many leaves, measuring all of them costs less than filtering them first. Measured on a scan with 1
+    // to 28 triangles per voxel. Inner nodes can contain far more: on the coarsest levels, a few contain the whole
+    // surface.
     static constexpr std::size_t few_leaves = 32;
 
     bool are_few_leaves(std::span<const std::uint32_t> nodes) const {
-        return nodes.size() <= few_leaves && std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) {
-                   return node < tree_.leaves;
-               });
+        return nodes.size() <= few_leaves &&
+               std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t node) { return node < tree_.leaves; });
     }
 
-    void keep(const NearestOfEight& best, const Index3& low) {
+    void store(const NearestOfEight& best, const Index3& low) {
         for (int i = 0; i < eight; ++i) {
             if (best.triangle[i] == NearestOfEight::none)
                 continue;
@@ -161,7 +160,7 @@ class BrickSearch {
 
     static int voxel_of(const Index3& at) { return (at.x * brick_size + at.y) * brick_size + at.z; }
 
-    /// The voxels of a block of 2³ whose distance is not known, a bit each.
+    /// The voxels of a block of 2³ whose distance is unknown, one bit each.
     std::uint32_t needed(const Index3& low) const {
         std::uint32_t bits = 0;
         for (int i = 0; i < eight; ++i)
@@ -174,13 +173,13 @@ class BrickSearch {
             reach[i] = reach_of(octant(low, size / 2, i), size / 2);
     }
 
-    /// The furthest that a voxel of a block of 2³ or 4³ looks; below 0 where none has to.
+    /// The largest search radius in a block of 2³ or 4³ voxels; negative if none needs a search.
     float reach_of(const Index3& low, int size) const {
         const std::uint64_t row = ((std::uint64_t{1} << size) - 1) << low.z, rows = row * 0x0101010101010101;
-        const std::uint64_t wanted = rows & ((std::uint64_t{1} << 8 * size) - 1) << 8 * low.y;
+        const std::uint64_t in_block = rows & ((std::uint64_t{1} << 8 * size) - 1) << 8 * low.y;
         float reach = -1.0f;
         for (int x = low.x; x < low.x + size; ++x) {
-            const std::uint64_t needed = wanted & ~slice_of(known_.data(), x);
+            const std::uint64_t needed = in_block & ~slice_of(known_.data(), x);
             if ((slice_of(limits_.rows, x) & needed) != needed)
                 return limits_.outer;
             if (needed != 0)
@@ -190,7 +189,7 @@ class BrickSearch {
     }
 
     static std::uint64_t slice_of(const std::uint8_t* rows, int x) {
-        std::uint64_t slice; // y from the lowest byte on
+        std::uint64_t slice; // one byte per row, y = 0 lowest
         static_assert(std::endian::native == std::endian::little);
         std::memcpy(&slice, rows + std::ptrdiff_t{x} * brick_size, sizeof slice);
         return slice;
@@ -200,12 +199,12 @@ class BrickSearch {
     const Block brick_;
     const BrickLimits limits_;
     NearestTriangles& nearest_;
-    std::array<std::uint8_t, brick_rows> known_; // a bit a voxel, as limits_.rows
+    std::array<std::uint8_t, brick_rows> known_; // one bit per voxel, as limits_.rows
     Workspace& work_;
 };
 
-void nearest_in_brick(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
-                      const BrickLimits& limits, NearestTriangles& nearest) {
+void nearest_in_brick(const TriangleTree& tree, const Nodes& nodes, const Block& brick, const BrickLimits& limits,
+                      NearestTriangles& nearest) {
     thread_local Workspace work;
     BrickSearch(tree, brick, limits, nearest, work).search(nodes);
 }
@@ -220,13 +219,12 @@ namespace alcove {
 HWY_EXPORT(split_once);
 HWY_EXPORT(nearest_in_brick);
 
-void split(const TriangleTree& tree, const Nodes& nodes, const Block& block, float reach,
-           std::array<Nodes, 8>& parts) {
+void split(const TriangleTree& tree, const Nodes& nodes, const Block& block, float reach, std::array<Nodes, 8>& parts) {
     HWY_DYNAMIC_DISPATCH(split_once)(tree, nodes, block, reach, parts);
 }
 
-void nearest_triangles(const TriangleTree& tree, const Nodes& nodes, const Block& brick,
-                       const BrickLimits& limits, NearestTriangles& nearest) {
+void nearest_triangles(const TriangleTree& tree, const Nodes& nodes, const Block& brick, const BrickLimits& limits,
+                       NearestTriangles& nearest) {
     HWY_DYNAMIC_DISPATCH(nearest_in_brick)(tree, nodes, brick, limits, nearest);
 }
 

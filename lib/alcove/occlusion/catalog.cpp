@@ -34,7 +34,7 @@ constexpr bool unbounded_radius() {
         return false;
 }
 
-/// Probes are cut to what they can tell.
+/// With the radius of probing methods limited to max_probe_distance.
 template <class E>
 E estimator_of(const Settings& settings) {
     E estimator = with_settings<E>(settings);
@@ -44,7 +44,7 @@ E estimator_of(const Settings& settings) {
 }
 
 template <class E>
-constexpr float document_radius_of() {
+constexpr float reference_radius_of() {
     if constexpr (requires { E::reference_radius; })
         return E::reference_radius;
     else
@@ -58,19 +58,17 @@ constexpr Method method() {
             channels_of<E>(),
             !on_mesh,
             on_mesh || on_both,
-            document_radius_of<E>(),
-            [](std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
-               const Occluders& occluders, const Settings& settings, ChannelSet wanted,
-               const Progress& progress) {
+            unbounded_radius<E>(),
+            reference_radius_of<E>(),
+            [](std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const Occluders& occluders,
+               const Settings& settings, ChannelSet wanted, const Progress& progress) {
                 if constexpr (on_both)
-                    return bake_channels(surfels, order, occluders.field(), occluders.rays(),
-                                         estimator_of<E>(settings), wanted, progress);
+                    return evaluate(surfels, order, occluders.field(), occluders.rays(), estimator_of<E>(settings),
+                                    wanted, progress);
                 else if constexpr (on_mesh)
-                    return bake_channels(surfels, order, occluders.rays(), estimator_of<E>(settings), wanted,
-                                         progress);
+                    return evaluate(surfels, order, occluders.rays(), estimator_of<E>(settings), wanted, progress);
                 else
-                    return bake_channels(surfels, order, occluders.field(), estimator_of<E>(settings), wanted,
-                                         progress);
+                    return evaluate(surfels, order, occluders.field(), estimator_of<E>(settings), wanted, progress);
             }};
 }
 
@@ -88,7 +86,7 @@ auto owner_of(std::string_view parameter, std::span<const M* const> needed) {
                         [&](const M* method) { return find_parameter(*method, parameter).has_value(); });
 }
 
-/// Those that are the method's own among the needed.
+/// The subset of `all` that goes to `method`: parameters that no earlier method of `needed` has.
 Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
     Settings own{.radius = all.radius, .max_probe_distance = all.max_probe_distance};
     for (const auto& setting : all.parameters)
@@ -108,15 +106,13 @@ void check(std::span<const M* const> needed, const Settings& settings) {
                 for (const ParameterInfo& p : method->parameters())
                     names.push_back(p.name);
             }
-            throw InputError(fmt::format("{} has no parameter '{}'; there are: {}",
-                                         fmt::join(methods, " and "), name,
-                                         names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+            throw InputError(fmt::format("{} has no parameter '{}'; known parameters: {}", fmt::join(methods, " and "),
+                                         name, names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
         }
         const ParameterInfo p = *find_parameter(**owner, name);
         if (!(value >= p.min && value <= p.max) || (p.integer && value != std::floor(value)))
-            throw InputError(fmt::format("{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name,
-                                         (*owner)->name, p.integer ? "a whole number" : "a number", p.min,
-                                         p.max, value));
+            throw InputError(fmt::format("{} of {} takes {} from {:.10g} to {:.10g}, not {:.10g}", name, (*owner)->name,
+                                         p.integer ? "a whole number" : "a number", p.min, p.max, value));
     }
 }
 
@@ -141,7 +137,7 @@ const Method& find_method(std::string_view name) {
                 return method;
             names.push_back(method.name);
         }
-    throw InputError(fmt::format("there is no method '{}'; there are: {}", name, fmt::join(names, ", ")));
+    throw InputError(fmt::format("there is no method '{}'; known methods: {}", name, fmt::join(names, ", ")));
 }
 
 std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted) {
@@ -149,10 +145,10 @@ std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted) 
     if ((chosen.gives & wanted).empty())
         needed.clear();
     ChannelSet left = wanted.without(chosen.gives);
-    // Short and long are halves of one method's own ao.
+    // Short and long range are factors of one method's own ao, so no other method can add them.
     if (left.has(Channel::ao_short) || left.has(Channel::ao_long))
         throw InputError(
-            fmt::format("{} has no ao_short and ao_long: use --method {}", chosen.name, Multiscale::name));
+            fmt::format("{} does not give ao_short or ao_long: use --method {}", chosen.name, Multiscale::name));
     for (const Method& method : methods)
         if (!(method.gives & left).empty()) {
             needed.push_back(&method);
@@ -169,8 +165,8 @@ void check_settings(const MethodInfo& method, const Settings& settings) {
     check<MethodInfo>(std::array{&method}, settings);
 }
 
-ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
-                            const Settings& settings, ChannelSet wanted, const Progress& progress) {
+ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
+                       const Settings& settings, ChannelSet wanted, const Progress& progress) {
     const std::vector<const Method*> needed = methods_for(chosen, wanted);
     check_settings(needed, settings);
     const std::vector<std::uint32_t> order = spatial_order(surfels);
@@ -180,9 +176,8 @@ ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& oc
         const auto done = [&](double part) {
             progress((static_cast<double>(i) + part) / static_cast<double>(needed.size()));
         };
-        ChannelValues part =
-            needed[i]->bake(surfels, order, occluders, settings_of(needed[i], needed, settings), left,
-                            progress ? done : Progress{});
+        ChannelValues part = needed[i]->bake(surfels, order, occluders, settings_of(needed[i], needed, settings), left,
+                                             progress ? done : Progress{});
         for (const ChannelInfo& channel : channels)
             if (!part[channel.channel].empty())
                 baked[channel.channel] = std::move(part[channel.channel]);

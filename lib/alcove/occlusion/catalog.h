@@ -1,7 +1,7 @@
-/// Every estimator by its name: what is chosen at run time, once a bake.
+/// All estimators by name, for selection at run time.
 #pragma once
 
-#include "alcove/occlusion/evaluate.h"
+#include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/occluders.h"
 
 #include <optional>
@@ -13,95 +13,99 @@
 
 namespace alcove {
 
-/// A parameter of a method, as the Parameter of its struct describes it.
+/// A parameter of a method, without its type.
 struct ParameterInfo {
     std::string_view name;
-    double standard; ///< its default
+    double standard; ///< default value
     double min, max; ///< inclusive
     bool integer, flag;
     std::string_view unit;
     std::string_view summary;
 };
 
-/// What a user sets: the radius of every estimator, and parameters by their names. Where several methods bake, a
-/// parameter is that of the first which has it; of two values the later holds.
+/// User settings: the radius, and parameters by name. If several methods run, a parameter goes to the first
+/// method that has it. If a name occurs twice, the later value wins.
 struct Settings {
     float radius = 0.1f; ///< units of the field; may be infinite
     std::vector<std::pair<std::string, double>> parameters{};
-    /// The radius is cut to this where it is that of probes: one further from a mesh than its diagonal tells nothing of
-    /// it.
+    /// Upper bound of the radius of methods that probe the field: beyond one diagonal from a mesh, probes carry no
+    /// information.
     float max_probe_distance = 1.0f;
 };
+
+/// The kind of samples that a method's sample-count parameter counts.
+enum class SampleKind { none, rays, probes };
+/// The name of that parameter: "rays", "samples" for probes, or "".
+constexpr std::string_view parameter_of(SampleKind samples) {
+    return samples == SampleKind::rays ? "rays" : samples == SampleKind::probes ? "samples" : "";
+}
 
 struct MethodInfo {
     std::string_view name;
     std::string_view summary;
     std::string_view formula;
     std::string_view source;
-    std::string_view cost; ///< in map() calls a surfel
+    std::string_view cost; ///< map() calls per surfel
     std::string_view good, bad;
     std::vector<ParameterInfo> (*parameters)();
-
-    bool has_parameter(std::string_view parameter) const {
-        for (const ParameterInfo& info : parameters())
-            if (info.name == parameter)
-                return true;
-        return false;
-    }
+    SampleKind samples_are; ///< kind of samples its sample-count parameter counts
 };
 
-/// An estimator behind a function pointer, as its struct describes itself.
+/// A type-erased estimator with its description.
 struct Method : MethodInfo {
     ChannelSet gives;
-    bool needs_grid;        ///< whether it probes the field
-    bool needs_mesh;        ///< whether it traces the triangles
-    float reference_radius; ///< that the constants of the formula stand for; 0 where it has none
-    /// Along the spatial_order(), which methods of one bake share. Settings of parameters the method has not are
-    /// passed over.
+    bool needs_grid;        ///< probes the field
+    bool needs_mesh;        ///< traces the triangles
+    bool unbounded_radius;  ///< the radius may be infinite
+    float reference_radius; ///< radius that the constants of the formula assume; 0 if it has none
+    /// Evaluates the surfels in `order`, a spatial_order(), which the methods of one bake share. Ignores settings
+    /// the method does not have.
     ChannelValues (*bake)(std::span<const Surfel>, std::span<const std::uint32_t> order, const Occluders&,
                           const Settings&, ChannelSet wanted, const Progress&);
 };
 
-/// All methods, in the order of the documentation.
+/// All methods, in documentation order.
 std::span<const Method> catalog();
 
-/// The method of that name that gives ao. \throw InputError for an unknown name, listing the known ones.
+/// The method of that name, among those that give ao. \throw InputError for an unknown name, listing the known
+/// ones.
 const Method& find_method(std::string_view name);
 
-/// The methods that give the wanted channels, each asked once: the chosen one for all that it gives, for the
-/// rest the first of the catalog. \throw InputError for a channel that only other methods than the chosen one
-/// can give along with its ao, naming them.
+/// The methods to run for the wanted channels, each once: the chosen method for every channel it gives, and for
+/// each remaining channel the first method of the catalogue that gives it. \throw InputError if ao_short or
+/// ao_long is wanted and the chosen method does not give it: these are factors of one method's own ao.
 std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
 
-/// \throw InputError if none of the methods has a parameter that is set, or its value is out of range, naming
-/// what there is.
+/// \throw InputError if a setting matches no parameter of the methods (the message lists the known parameters),
+/// or its value is out of range.
 void check_settings(std::span<const Method* const> methods, const Settings& settings);
 void check_settings(const MethodInfo& method, const Settings& settings);
 
-/// All wanted channels. \throw what methods_for() and check_settings() throw, and InputError where there is
-/// neither field nor triangles of the kind that a method asks.
-ChannelValues bake_channels(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
-                            const Settings& settings, ChannelSet wanted, const Progress& progress = {});
+/// Evaluates all wanted channels at the surfels (unit space). \throw what methods_for() and check_settings()
+/// throw, and InputError if a method needs a field or triangles and `occluders` has none.
+ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
+                       const Settings& settings, ChannelSet wanted, const Progress& progress = {});
 
-/// A method and the number of samples or rays it is given.
+/// A method with its sample count.
 struct MethodChoice {
     const Method* method = nullptr;
-    /// Probes or rays a vertex, as the parameter of that name counts them; 0 where the method has neither.
+    /// Probes or rays per vertex (see MethodInfo::samples_are); 0 if the method has no such parameter.
     int samples = 0;
 
     std::string label() const;             ///< "guided:3", "multiscale"
-    Settings settings(float radius) const; ///< unit space
-    int rays() const;                      ///< `samples` of a method that takes rays, else 0
+    Settings settings(float radius) const; ///< radius in unit space
+    int rays() const;                      ///< `samples` if they are rays, else 0
     bool operator==(const MethodChoice&) const = default;
 };
 
-/// Without a number, the method's default. \throw InputError if the method takes none, or not that one.
+/// `samples` defaults to the method's default. \throw InputError if the method has no sample count, or if
+/// `samples` is out of its range.
 MethodChoice choose(const Method& method, std::optional<int> samples = {});
 
-/// With the number that is among the settings, else the default.
+/// The sample count from the settings, else the method's default.
 MethodChoice choice_of(const Method& method, const Settings& settings);
 
-/// Every method that gives ao by its defaults, and those whose error falls with their rays at a few of them.
+/// Every method that gives ao, with defaults; guided, exact and traced also at several ray counts.
 std::vector<MethodChoice> standard_choices();
 
 }

@@ -1,4 +1,4 @@
-/// What a bake can give: its channels, and where an estimator writes them.
+/// The output channels of a bake and their storage.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -6,25 +6,27 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace alcove {
 
 enum class Channel : std::uint8_t {
     ao,          ///< visibility in [0, 1]: 1 open, 0 buried
-    ao_short,    ///< visibility at short range alone, in [0, 1]
-    ao_long,     ///< visibility at long range, in [0, 1]
-    convexity,   ///< in [0, 1]: 0.5 flat, above a convex edge, below a concave corner
-    bent_normal, ///< mean unoccluded direction, unit length; (0, 0, 0) where nothing is open
-    thickness, ///< distance along the reversed normal to the far side, at most the radius; unit of the field
+    ao_short,    ///< short-range visibility only, in [0, 1]
+    ao_long,     ///< visibility over the full range, in [0, 1]
+    convexity,   ///< in [0, 1]: 0.5 on flat surfaces, higher on convex edges, lower in concave corners
+    bent_normal, ///< mean unoccluded direction, unit length; (0, 0, 0) if no direction is open
+    thickness,   ///< distance along the reversed normal to the far side, at most the radius; field unit
 };
 
 struct ChannelInfo {
     Channel channel;
     std::string_view name;
-    std::size_t components; ///< floats a surfel
-    float missing;          ///< of a surfel without a normal
-    bool inside;            ///< whether the field is asked behind the surface, as deep as the radius
+    std::size_t components; ///< floats per surfel
+    float missing;          ///< value for surfels without a normal
+    bool inside;            ///< reads the field behind the surface, down to the radius
 };
 
 inline constexpr std::array<ChannelInfo, 6> channels{{
@@ -40,7 +42,7 @@ constexpr const ChannelInfo& info(Channel channel) {
     return channels[static_cast<std::size_t>(channel)];
 }
 
-/// Something for each channel.
+/// One value per channel.
 template <class T>
 struct PerChannel {
     std::array<T, channels.size()> values{};
@@ -49,15 +51,21 @@ struct PerChannel {
     constexpr const T& operator[](Channel channel) const { return values[static_cast<std::size_t>(channel)]; }
 };
 
-/// The channels somebody asks for, or an estimator gives.
+/// One entry per surfel: as many floats as the channel has components; empty for channels that were not requested.
+using ChannelValues = PerChannel<std::vector<float>>;
+
+/// A set of channels: those requested, or those an estimator provides.
 using ChannelSet = EnumSet<Channel>;
 
 constexpr ChannelSet operator|(Channel a, Channel b) {
     return ChannelSet(a) | b;
 }
 
-/// Where an estimator writes the channels of a batch, one surfel after the other; null for those that nobody
-/// asked for.
+/// Output pointers of an estimator for one batch, surfel after surfel; null for channels that were not
+/// requested.
 using Outputs = PerChannel<float*>;
+
+/// "ao, convexity", in the order of `channels`.
+std::string names_of(ChannelSet attributes);
 
 }

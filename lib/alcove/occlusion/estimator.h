@@ -1,4 +1,5 @@
-/// What an estimator is: a struct whose members are its parameters and whose call operator is the method.
+/// The estimator interface. An estimator is a struct whose members are its parameters and whose call operator
+/// computes the channels:
 ///
 ///     struct Mine {
 ///         float radius = 0.1f;
@@ -6,28 +7,33 @@
 ///         void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const;
 ///     };
 ///
-/// It writes a value a surfel to `out[Channel::ao]`, in [0, 1], and to the other channels it `gives` where
-/// they are not null; every surfel of a batch has a normal. Lengths are in the unit of the field. `const` and
-/// without state, so that any number of threads share one estimator. To be chosen by name it also says what it
-/// is, as Classic does, and has its line in catalog.cpp.
+/// It writes one value in [0, 1] per surfel to `out[Channel::ao]`, and fills each other channel in its `gives`
+/// whose pointer is not null. Every surfel of a batch has a normal. Lengths are in the unit of the field. The
+/// call operator is `const` and keeps no state, so any number of threads can share one estimator. To be
+/// selectable by name, the struct also describes itself as Classic does and has a line in catalog.cpp.
 ///
-/// *Document units*: the constants of a formula stand for the radius R₀ of its document. With R the wanted
-/// radius, heights are multiplied by R/R₀ and distances by R₀/R, so that any uniform scale of scene and radius
-/// gives the same values, and R = R₀ is the document itself.
+/// *Reference units*: the constants of a published formula assume its reference radius R₀. For a radius R,
+/// heights are multiplied by R/R₀ and distances by R₀/R. Scaling scene and radius together therefore changes
+/// nothing, and R = R₀ reproduces the published formula.
 #pragma once
 
 #include "alcove/field/field.h"
 #include "alcove/occlusion/channels.h"
 
+#include "alcove/base/parallel.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <mutex>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace alcove {
 
-/// Up to `capacity` surfels as arrays, neighbours in space: what estimators work on at a time.
+/// Up to `capacity` surfels that are close in space, as structure of arrays: the unit of work of an estimator.
 struct SurfelBatch {
     static constexpr std::size_t capacity = 64;
     using Values = std::array<float, capacity>;
@@ -45,14 +51,13 @@ struct SurfelBatch {
     Vec3 normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
 };
 
-/// `F` is a Field, or a RaySurface for those that shoot rays at the mesh.
+/// `F` is a Field, or a RaySurface for estimators that trace rays against the mesh.
 template <class E, class F>
-concept Estimator = requires(const E& estimator, const F& field, const SurfelBatch& surfels,
-                             const Outputs& out) {
+concept Estimator = requires(const E& estimator, const F& field, const SurfelBatch& surfels, const Outputs& out) {
     estimator(field, surfels, out);
 };
 
-/// The channels an estimator gives: those it names, else ao alone.
+/// The channels of an estimator: `E::gives` if it exists, else ao alone.
 template <class E>
 constexpr ChannelSet channels_of() {
     if constexpr (requires { E::gives; })
@@ -61,22 +66,22 @@ constexpr ChannelSet channels_of() {
         return Channel::ao;
 }
 
-/// A point a surfel.
+/// One point per surfel.
 struct ProbeBatch {
     SurfelBatch::Values x, y, z;
 
     void set(std::size_t i, const Vec3& p) { x[i] = p.x, y[i] = p.y, z[i] = p.z; }
 };
 
-/// distances[i] = map(probes[i]) for the first `count`; none is further than `reach` from the surface. Cost:
-/// `count` map() calls.
+/// distances[i] = map(probes[i]) for the first `count` probes, all within `reach` of the surface. Cost: `count`
+/// map() calls.
 template <Field F>
 void map_probes(const F& field, const ProbeBatch& probes, std::size_t count, float reach, float* distances) {
     map_batch(field, Points{probes.x.data(), probes.y.data(), probes.z.data(), count}, reach, distances);
 }
 
-/// distances[i] = map(position + height · normal) for the whole batch; a negative height is behind the
-/// surface. Cost: one map() a surfel.
+/// distances[i] = map(position + height · normal) for the whole batch. A negative height is behind the surface.
+/// Cost: one map() call per surfel.
 template <Field F>
 void probe_along_normal(const F& field, const SurfelBatch& surfels, float height, float* distances) {
     ProbeBatch probes;
@@ -86,6 +91,64 @@ void probe_along_normal(const F& field, const SurfelBatch& surfels, float height
         probes.z[i] = surfels.z[i] + height * surfels.nz[i];
     }
     map_probes(field, probes, surfels.count, std::fabs(height), distances);
+}
+
+/// The indices of the surfels that have a normal, along a Morton curve (Morton 1966). Neighbours in the list are
+/// neighbours in space, so a batch touches few grid bricks. Independent of the order of the surfels.
+std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
+
+/// Every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels without
+/// a normal get ChannelInfo::missing. The values depend neither on the number of threads nor on the order of
+/// the surfels. `progress` is never called concurrently. Cost: that of the estimator, per surfel.
+template <class F, Estimator<F> E>
+ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const F& field,
+                       const E& estimator, ChannelSet wanted, const Progress& progress = {}) {
+    wanted = wanted & channels_of<E>();
+    ChannelValues baked;
+    for (const ChannelInfo& channel : channels)
+        if (wanted.has(channel.channel))
+            baked[channel.channel].assign(surfels.size() * channel.components, channel.missing);
+    constexpr std::size_t grain = 16 * SurfelBatch::capacity;
+    std::mutex progress_mutex;
+    std::size_t finished = 0;
+    parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
+        SurfelBatch batch;
+        PerChannel<std::array<float, 3 * SurfelBatch::capacity>> values;
+        Outputs out;
+        for (const ChannelInfo& channel : channels)
+            if (wanted.has(channel.channel) || channel.channel == Channel::ao)
+                out[channel.channel] = values[channel.channel].data();
+        for (std::size_t at = begin; at < end; at += batch.count) {
+            batch.count = 0;
+            for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
+                batch.push_back(surfels[order[i]]);
+            estimator(field, batch, out);
+            for (const ChannelInfo& channel : channels)
+                if (wanted.has(channel.channel))
+                    for (std::size_t k = 0; k < batch.count; ++k)
+                        std::copy_n(out[channel.channel] + k * channel.components, channel.components,
+                                    baked[channel.channel].data() + order[at + k] * channel.components);
+        }
+        if (progress) {
+            const std::lock_guard lock(progress_mutex);
+            finished += end - begin;
+            progress(static_cast<double>(finished) / static_cast<double>(order.size()));
+        }
+    });
+    return baked;
+}
+
+template <class F, Estimator<F> E>
+ChannelValues evaluate(std::span<const Surfel> surfels, const F& field, const E& estimator, ChannelSet wanted,
+                       const Progress& progress = {}) {
+    return evaluate(surfels, spatial_order(surfels), field, estimator, wanted, progress);
+}
+
+/// The ao channel only: one value per surfel, 1 for surfels without a normal.
+template <class F, Estimator<F> E>
+std::vector<float> evaluate_ao(std::span<const Surfel> surfels, const F& field, const E& estimator,
+                               const Progress& progress = {}) {
+    return std::move(evaluate(surfels, field, estimator, Channel::ao, progress)[Channel::ao]);
 }
 
 }

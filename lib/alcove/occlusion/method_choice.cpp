@@ -9,10 +9,10 @@
 namespace alcove {
 namespace {
 
-/// The parameter that says how much work a surfel is worth.
+/// The parameter that sets the number of samples per surfel.
 std::optional<ParameterInfo> samples_of(const Method& method) {
     for (const ParameterInfo& parameter : method.parameters())
-        if (parameter.name == "samples" || parameter.name == "rays")
+        if (parameter.name == parameter_of(method.samples_are))
             return parameter;
     return {};
 }
@@ -31,7 +31,7 @@ Settings MethodChoice::settings(float radius) const {
 }
 
 int MethodChoice::rays() const {
-    return samples > 0 && samples_of(*method)->name == "rays" ? samples : 0;
+    return method->samples_are == SampleKind::rays ? samples : 0;
 }
 
 MethodChoice choose(const Method& method, std::optional<int> samples) {

@@ -16,7 +16,7 @@ namespace alcove {
 struct RaySurface::Scene {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
-    std::vector<TrianglePair> pairs; // its quadrilaterals
+    std::vector<TrianglePair> pairs; // Embree's quads
 
     Scene() = default;
     Scene(const Scene&) = delete;
@@ -28,8 +28,8 @@ struct RaySurface::Scene {
 
     void check() const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-            throw LimitError(fmt::format("no room for the rays' hierarchy over the triangles (error {}); "
-                                         "take a method without rays, or fewer triangles",
+            throw LimitError(fmt::format("not enough memory for the BVH of the triangles (Embree error {}); "
+                                         "use a method without rays, or fewer triangles",
                                          static_cast<int>(error)));
     }
 };
@@ -38,18 +38,19 @@ RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle
     for (const Triangle& triangle : triangles)
         for (const std::uint32_t corner : triangle)
             if (corner >= positions.size())
-                throw InputError(fmt::format("a triangle names position {} of {}", corner, positions.size()));
+                throw InputError(
+                    fmt::format("a triangle refers to position {}, but there are only {}", corner, positions.size()));
     const auto scene = std::make_shared<Scene>();
     const auto buffer = [&](RTCGeometry geometry, RTCBufferType type, RTCFormat format, const auto& items) {
-        // Its own, not shared: Embree reads past the last vertex.
+        // Copied, not shared: Embree reads past the last vertex.
         void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size());
         scene->check();
         std::memcpy(to, items.data(), items.size_bytes());
     };
-    // A quarter of the time of a better one, and rays are as fast.
+    // Builds in a quarter of the time of higher quality, and rays are as fast.
     constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
     rtcSetSceneBuildQuality(scene->scene, quality);
-    // Embree splits its quadrilaterals as pairs are: the same triangles, in half as many primitives to sort.
+    // Embree splits a quad into the same two triangles as a pair, with half as many primitives to build from.
     scene->pairs = pair_triangles(positions, triangles);
     const std::vector<TrianglePair>& pairs = scene->pairs;
     if (!pairs.empty()) {
@@ -81,7 +82,7 @@ RTCRay embree_ray(const RayBatch& rays, std::size_t i, float far) {
     return ray;
 }
 
-/// Of the pair's first triangle (0, 1, 3) below the diagonal, else of its second (2, 3, 1).
+/// Below the diagonal, u + v <= 1, the hit is on the pair's first triangle (0, 1, 3), else on the second (2, 3, 1).
 SurfaceHit hit_of(const RTCHit& hit, const TrianglePair& pair) {
     const Vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
     if (hit.u + hit.v <= 1.0f)
@@ -97,8 +98,8 @@ void RaySurface::find_occluded(RayBatch& rays, float far) const {
         stream[i] = embree_ray(rays, i, far);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    // Measured: a stream of rays that start together is a fifth faster than packets of 16 filled here, sorted
-    // by octant or not. Embree's robust mode takes a third longer and changes one ray of a million.
+    // Measured: a stream of rays with nearby origins is a fifth faster than packets of 16 assembled here, whether
+    // or not sorted by octant. Embree's robust mode takes a third longer and changes one ray in a million.
     rtcOccluded1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.count; ++i)
         rays.hit[i] = stream[i].tfar < 0.0f;
@@ -112,8 +113,7 @@ void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> h
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count),
-                   sizeof(RTCRayHit));
+    rtcIntersect1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count), sizeof(RTCRayHit));
     for (std::size_t i = 0; i < rays.count; ++i) {
         rays.hit[i] = stream[i].hit.geomID != RTC_INVALID_GEOMETRY_ID;
         if (!rays.hit[i])
@@ -125,13 +125,13 @@ void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> h
 
 const AnyField& Occluders::field() const {
     if (!field_)
-        throw InputError("there is no grid here for a method that probes one");
+        throw InputError("the method probes a grid, but there is none");
     return *field_;
 }
 
 const RaySurface& Occluders::rays() const {
     if (!rays_)
-        throw InputError("there are no triangles here for a method that traces them: use traced");
+        throw InputError("the method traces triangles, but there are none: use traced");
     return *rays_;
 }
 

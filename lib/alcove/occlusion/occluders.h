@@ -1,4 +1,4 @@
-/// What occludes: a field, triangles for rays, or both.
+/// Occluding geometry: a field, triangles for rays, or both.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -11,28 +11,27 @@ namespace alcove {
 
 struct RayBatch; // rays as arrays (field/detail/trace.h)
 
-/// A place on a triangle.
+/// A point on a triangle.
 struct SurfaceHit {
-    Triangle vertices{}; ///< positions as they were given
-    Vec3 weights{0.0f};  ///< of the vertices, of sum 1
-    Vec3 normal{0.0f};   ///< of the triangle, of any length
+    Triangle vertices{}; ///< indices into the positions given to RaySurface
+    Vec3 weights{0.0f};  ///< barycentric coordinates, of sum 1
+    Vec3 normal{0.0f};   ///< normal of the triangle, not normalised
 };
 
-/// Triangles under a bounding volume hierarchy. I. Wald et al., "Embree: A Kernel Framework for Efficient CPU
-/// Ray Tracing" (2014). Copies share it; `const` use is safe from any number of threads.
+/// Triangles in a BVH (Embree: Wald 2014). Copies share the BVH. `const` use is safe from any number of threads.
 class RaySurface {
   public:
-    /// In unit space; nothing is kept of the spans. Triangles may be degenerate, and one with a corner that is
-    /// not finite is left out. Cost: about 0.2 µs a triangle. \throw InputError where a corner names no
-    /// position; LimitError where there is too little memory.
+    /// Positions in unit space; copies both spans. Triangles may be degenerate; those with a non-finite corner are
+    /// skipped. Cost: about 0.2 µs per triangle. \throw InputError if a corner index is out of range, LimitError
+    /// if memory runs out.
     RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-    /// Sets `hit` of every ray: whether it meets a triangle, from either side, beyond its `travelled` and
-    /// within `far`, which may be infinite. Cost: about 0.1 µs a ray where neighbours in the batch start near
-    /// each other.
+    /// Sets `hit` of every ray: whether it meets a triangle, from either side, between its `travelled` and `far`,
+    /// which may be infinite. Cost: about 0.1 µs per ray if neighbours in the batch start near each other.
     void find_occluded(RayBatch& rays, float far) const;
 
-    /// The same, and for those that meet one: the nearest, in `travelled` how far it is, and in `hits`, one a ray, where.
+    /// As find_occluded(), but finds the nearest triangle: sets `travelled` to its distance and `hits[i]` to the
+    /// point, for rays that hit. `hits` has one entry per ray.
     void find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const;
 
   private:
@@ -40,16 +39,16 @@ class RaySurface {
     std::shared_ptr<const Scene> scene_;
 };
 
-/// A field, triangles, or both, in unit space. Copies share them; const use is thread-safe.
+/// A field, triangles, or both, in unit space. Copies share them; `const` use is thread-safe.
 class Occluders {
   public:
     Occluders(AnyField field) : field_(std::move(field)) {}
     Occluders(RaySurface rays) : rays_(std::move(rays)) {}
     Occluders(AnyField field, RaySurface rays) : field_(std::move(field)), rays_(std::move(rays)) {}
 
-    /// \throw InputError where there is none.
+    /// \throw InputError if there is no field.
     const AnyField& field() const;
-    /// \throw InputError where there are no triangles.
+    /// \throw InputError if there are no triangles.
     const RaySurface& rays() const;
 
   private:

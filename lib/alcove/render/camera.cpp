@@ -12,29 +12,29 @@ namespace {
 
 constexpr double margin = 0.05;
 
-/// The part of v across `axis` (unit length), at unit length; zero if v runs along it.
-Vec3d across(const Vec3d& v, const Vec3d& axis) {
+/// The component of v perpendicular to `axis` (unit length), normalised; zero if v is parallel to it.
+Vec3d perpendicular(const Vec3d& v, const Vec3d& axis) {
     const Vec3d rest = v - glm::dot(v, axis) * axis;
     const double length = glm::length(rest);
     return length > 1e-9 * glm::length(v) ? rest / length : Vec3d(0.0);
 }
 
-/// The axis a scene faces along.
+/// The direction that the front of a scene faces.
 Vec3d front_of(const Vec3d& up) {
     const Vec3d size = glm::abs(up);
     return size.z > size.x && size.z > size.y ? Vec3d(0.0, -1.0, 0.0) : Vec3d(0.0, 0.0, 1.0);
 }
 
-/// From the renderable toward the eye, unit length.
+/// Direction from the renderable toward the eye, unit length.
 Vec3d three_quarter_view(const Vec3d& up) {
-    const Vec3d front = across(front_of(up), up);
+    const Vec3d front = perpendicular(front_of(up), up);
     const Vec3d side = glm::cross(up, front);
     return glm::normalize(0.55 * side + 0.45 * up + front);
 }
 
-/// The extent of points in the frame of a camera, as it bears on where the eye may be.
+/// The eye positions that see all points, along one axis of the image.
 ///
-/// A point at (x, depth) is seen from an eye at (e, d) if |x − e| <= t (depth − d): so e − t d >= max(x − t
+/// A point at (x, depth) is visible from an eye at (e, d) if |x − e| <= t (depth − d). So e − t d >= max(x − t
 /// depth) and e + t d <= min(x + t depth).
 struct Visibility {
     double left = std::numeric_limits<double>::infinity();   // min(x + t depth)
@@ -57,11 +57,11 @@ Camera::Camera(const Vec3d& eye, const Vec3d& look_at, const Vec3d& up, double f
     const Vec3d view = look_at - eye;
     const double distance = glm::length(view);
     if (!(distance > 0.0))
-        throw InputError("the camera's eye is the point it looks at: move one of them");
+        throw InputError("the camera looks at its own eye position: move one of them");
     forward_ = view / distance;
-    up_ = across(up, forward_);
+    up_ = perpendicular(up, forward_);
     if (up_ == Vec3d(0.0))
-        up_ = across(-front_of(up), forward_);
+        up_ = perpendicular(-front_of(up), forward_);
     right_ = glm::cross(forward_, up_);
     half_width_ = std::tan(0.5 * fov * std::numbers::pi / 180.0);
     half_height_ = half_width_ * size.height / size.width;
@@ -109,8 +109,8 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
 
     const Vec3d up = glm::normalize(options.up);
     const Vec3d toward_eye = three_quarter_view(up);
-    const Camera orientation(toward_eye, Vec3d(0.0), up, options.fov,
-                             size); // its axes alone: a target may be far away
+    // Placed at the origin for its axes only, because a distant target would lose precision.
+    const Camera orientation(toward_eye, Vec3d(0.0), up, options.fov, size);
     const double half_width = std::tan(0.5 * options.fov * std::numbers::pi / 180.0);
     Visibility horizontal((1.0 - 2.0 * margin) * half_width);
     Visibility vertical((1.0 - 2.0 * margin) * half_width * size.height / size.width);
@@ -125,7 +125,7 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
     const double extent = frame_of(box).diagonal;
     if (points.empty())
         return Camera(target + 2.0 * toward_eye, target, up, options.fov, size);
-    // A little in front of the nearest point even where all of them lie on the view axis.
+    // A little in front of the nearest point even if all points are on the view axis.
     const double depth = std::min({horizontal.depth(), vertical.depth(), nearest - 1e-2 * extent});
     Vec3d eye = target + depth * orientation.forward();
     Vec3d aim = target;

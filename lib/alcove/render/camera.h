@@ -20,7 +20,7 @@ struct ImageSize {
 };
 inline constexpr int longest_side = 65536; ///< pixels
 
-/// Where to look from; what is not given is chosen so that the renderable fills the image.
+/// The view. Unset members are chosen so that the renderable fills the image.
 struct CameraOptions {
     std::optional<Vec3d> eye{};     ///< scene units
     std::optional<Vec3d> look_at{}; ///< scene units
@@ -30,26 +30,25 @@ struct CameraOptions {
 
 class Camera {
   public:
-    /// An up direction along the view is replaced by one across it. \throw InputError if `eye` is `look_at`.
+    /// If `up` is parallel to the view, a perpendicular direction replaces it. \throw InputError if `eye` equals
+    /// `look_at`.
     Camera(const Vec3d& eye, const Vec3d& look_at, const Vec3d& up, double fov, ImageSize size);
 
     const Vec3d& eye() const { return eye_; }
     const Vec3d& right() const { return right_; }
-    const Vec3d& up() const { return up_; } ///< across the view, unlike the one it was made from
+    const Vec3d& up() const { return up_; } ///< perpendicular to the view, unlike that of the constructor
     const Vec3d& forward() const { return forward_; }
     ImageSize size() const { return size_; }
     double fov() const;                                              ///< degrees across the width
     double screen_window_width() const { return 2.0 * half_width_; } ///< of the image plane at depth 1
 
-    /// Unit direction of the ray through a place of the image.
-    Vec3d direction(double x, double y) const {
-        return glm::normalize(corner_ + x * pixel_right_ + y * pixel_down_);
-    }
-    /// (x, y, depth) of a point in front of the eye; places outside the image are outside [0, width] × [0,
-    /// height].
+    /// Unit direction of the ray through the pixel coordinates (x, y).
+    Vec3d direction(double x, double y) const { return glm::normalize(corner_ + x * pixel_right_ + y * pixel_down_); }
+    /// (x, y, depth) of a point in front of the eye. (x, y) is outside [0, width] × [0, height] if the point is
+    /// outside the image.
     Vec3d project(const Vec3d& p) const;
 
-    /// Left-handed: x right, y up, z forward; column vectors. As OpenEXR's standard attributes want it.
+    /// Left-handed: x right, y up, z forward; column vectors. The convention of OpenEXR's standard attributes.
     glm::dmat4 world_to_camera() const;
     /// After division by w, x and y run from (0, 0) at the upper left to (1, 1) at the lower right; z is
     /// 1/depth.
@@ -57,15 +56,15 @@ class Camera {
 
   private:
     Vec3d eye_, right_, up_, forward_;
-    double half_width_, half_height_;         // of the image plane at depth 1
-    Vec3d corner_, pixel_right_, pixel_down_; // its upper left one from the eye, and the sides of a pixel
+    // Of the image plane at depth 1: half sizes, upper left corner relative to the eye, sides of a pixel.
+    double half_width_, half_height_;
+    Vec3d corner_, pixel_right_, pixel_down_;
     ImageSize size_;
 };
 
-/// The camera that was asked for. Without an eye it looks from above and in front, three quarters to the
-/// side, from as near as keeps all points in the image with a margin of 5 % around them; without a target, at
-/// their centre. The front is +z, or −y where up is nearer to z than to the other axes. Cost: linear in the
-/// points. \throw InputError as Camera().
+/// The camera of the options. By default it looks at the centre of the points, from above and in front in a
+/// three-quarter view, and from as near as keeps all points in the image with a margin of 5 %. The front is +z, or
+/// −y if up is nearer to z than to the other axes. Cost: linear in the points. \throw InputError as Camera().
 Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, ImageSize size);
 
 }

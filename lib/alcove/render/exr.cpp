@@ -16,7 +16,7 @@
 namespace alcove {
 namespace {
 
-/// OpenEXR goes back to fill in its table of offsets, so the file grows in memory.
+/// OpenEXR seeks back to fill in its offset table, so the file is assembled in memory.
 class MemoryStream : public Imf::OStream {
   public:
     explicit MemoryStream(const std::string& name) : OStream(name.c_str()) {}
@@ -47,15 +47,14 @@ Imath::M44f row_vectors(const glm::dmat4& m) {
 
 constexpr float largest_half = 65504.0f;
 
-/// What a file is written from, channel by channel.
+/// The channels of a file and the frame buffer that OpenEXR reads them from.
 class Channels {
   public:
     Channels(Imf::Header& header, std::size_t width, std::size_t pixels)
         : header_(header), width_(width), pixels_(pixels) {}
 
-    /// Each `step`th of the values is a channel's, under all of the names.
-    void add(std::initializer_list<const char*> names, const float* values, std::size_t step,
-             Precision precision) {
+    /// Adds every `step`th value as a channel, once under each name.
+    void add(std::initializer_list<const char*> names, const float* values, std::size_t step, Precision precision) {
         if (precision == Precision::single) {
             insert(names, Imf::FLOAT, values, step * sizeof(float));
             return;
@@ -68,9 +67,8 @@ class Channels {
     const Imf::FrameBuffer& buffer() const { return buffer_; }
 
   private:
-    void insert(std::initializer_list<const char*> names, Imf::PixelType type, const void* values,
-                std::size_t stride) {
-        // OpenEXR takes pointers it only reads as pointers it may write.
+    void insert(std::initializer_list<const char*> names, Imf::PixelType type, const void* values, std::size_t stride) {
+        // OpenEXR takes a writable pointer even for data it only reads.
         char* base = const_cast<char*>(static_cast<const char*>(values));
         for (const char* name : names) {
             header_.channels().insert(name, Imf::Channel(type));
@@ -81,7 +79,7 @@ class Channels {
     Imf::Header& header_;
     std::size_t width_, pixels_;
     Imf::FrameBuffer buffer_;
-    std::deque<std::vector<Imath::half>> halves_; // stay where they are
+    std::deque<std::vector<Imath::half>> halves_; // a deque keeps their addresses stable
 };
 
 void add_vectors(Channels& channels, std::array<const char*, 3> names, const std::vector<Vec3>& values,
@@ -95,9 +93,8 @@ void add_vectors(Channels& channels, std::array<const char*, 3> names, const std
 void write_exr(const Image& image, const std::filesystem::path& file, const ImageHeader& description,
                Precision precision) {
     Imf::Header header(image.width, image.height, 1.0f, Imath::V2f(0.0f),
-                       static_cast<float>(description.screen_window_width), Imf::INCREASING_Y,
-                       Imf::ZIP_COMPRESSION);
-    // Takes a third of the time of the standard level, for a twentieth more bytes.
+                       static_cast<float>(description.screen_window_width), Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
+    // A third of the time of the default level, for files a twentieth larger.
     header.zipCompressionLevel() = 2;
     Imf::addWorldToCamera(header, row_vectors(description.world_to_camera));
     Imf::addWorldToNDC(header, row_vectors(description.world_to_ndc));

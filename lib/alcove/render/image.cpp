@@ -24,8 +24,7 @@ double Image::bytes_per_pixel(PassSet passes) {
     double bytes = sizeof(float);
     for (const PassInfo& info : all_passes)
         if (passes.has(info.pass)) {
-            const bool vector =
-                info.pass == Pass::beauty || info.pass == Pass::normal || info.pass == Pass::position;
+            const bool vector = info.pass == Pass::beauty || info.pass == Pass::normal || info.pass == Pass::position;
             bytes += vector ? sizeof(Vec3) : sizeof(float);
         }
     return bytes;

@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// Light of the backdrop, from the top of the image (0) to its bottom (1): grey, a little darker below.
+/// Linear grey of the backdrop, from the top of the image (0) to its bottom (1): slightly darker toward the bottom.
 float backdrop(float down) {
     return 0.66f - 0.26f * down;
 }
@@ -20,7 +20,7 @@ Vec3 encoded(const Vec3& linear) {
     return {srgb_encoded(linear.x), srgb_encoded(linear.y), srgb_encoded(linear.z)};
 }
 
-/// A colour of its own for each number: hues a golden section apart.
+/// A distinct colour for each object number: hues a golden ratio apart.
 Vec3 color_of(float object) {
     const float hue = 6.0f * std::fmod(0.618034f * object, 1.0f);
     const auto channel = [&](float at) {
@@ -30,14 +30,14 @@ Vec3 color_of(float object) {
     return {channel(0.0f), channel(2.0f), channel(4.0f)};
 }
 
-/// What a PNG shows of each pixel, encoded, in [0, 1].
-class Shown {
+/// The encoded colour of each pixel in a PNG, in [0, 1].
+class PngPixels {
   public:
-    Shown(const Image& image, Pass pass) : image_(image), pass_(pass) {
+    PngPixels(const Image& image, Pass pass) : image_(image), pass_(pass) {
         for (std::size_t i = 0; i < image.pixels(); ++i)
             if (image.alpha[i] > 0.0f) {
-                least_ = glm::min(least_, ranged(i));
-                largest_ = glm::max(largest_, ranged(i));
+                min_ = glm::min(min_, ranged(i));
+                max_ = glm::max(max_, ranged(i));
             }
     }
 
@@ -68,7 +68,7 @@ class Shown {
     }
 
   private:
-    /// What is shown by where it lies among those of all pixels.
+    /// The value of a pass that is shown relative to its range over all pixels.
     Vec3 ranged(std::size_t i) const {
         switch (pass_) {
         case Pass::depth:
@@ -84,24 +84,24 @@ class Shown {
     Vec3 share(std::size_t i) const {
         Vec3 result(0.0f);
         for (int c = 0; c < 3; ++c)
-            if (largest_[c] > least_[c])
-                result[c] = std::clamp((ranged(i)[c] - least_[c]) / (largest_[c] - least_[c]), 0.0f, 1.0f);
+            if (max_[c] > min_[c])
+                result[c] = std::clamp((ranged(i)[c] - min_[c]) / (max_[c] - min_[c]), 0.0f, 1.0f);
         return result;
     }
 
     const Image& image_;
     Pass pass_;
-    Vec3 least_{std::numeric_limits<float>::max()}, largest_{std::numeric_limits<float>::lowest()};
+    Vec3 min_{std::numeric_limits<float>::max()}, max_{std::numeric_limits<float>::lowest()};
 };
 
 }
 
 std::string encode_png(const Image& image, Pass pass) {
-    const Shown shown(image, pass);
+    const PngPixels pixels(image, pass);
     std::vector<std::uint8_t> rgb(3 * image.pixels());
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const auto row = static_cast<float>(i / static_cast<std::size_t>(image.width));
-        const Vec3 pixel = shown(i, backdrop((row + 0.5f) / static_cast<float>(image.height)));
+        const Vec3 pixel = pixels(i, backdrop((row + 0.5f) / static_cast<float>(image.height)));
         for (int c = 0; c < 3; ++c)
             rgb[3 * i + static_cast<std::size_t>(c)] =
                 static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(pixel[c], 0.0f, 1.0f)));
@@ -115,7 +115,7 @@ std::string encode_png(const Image& image, Pass pass) {
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::string bytes(size, '\0');
     if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr))
-        throw LimitError(std::string("the picture cannot be encoded as PNG: ") + png.message);
+        throw LimitError(std::string("the image cannot be encoded as PNG: ") + png.message);
     bytes.resize(size);
     return bytes;
 }

@@ -1,7 +1,7 @@
 #include "alcove/render/renderable.h"
 
 #include "alcove/base/errors.h"
-#include "alcove/field/combine.h"
+#include "alcove/field/primitives.h"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +62,7 @@ Outline outline(const AnyField& field, const Frame& frame) {
                 }
         }
     if (result.points.empty())
-        throw InputError("the grid holds no surface: its distances are nowhere near 0");
+        throw InputError("the grid contains no surface: its distances are nowhere near 0");
     return result;
 }
 

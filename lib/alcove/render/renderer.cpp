@@ -1,4 +1,5 @@
 #include "alcove/render/renderer.h"
+#include "alcove/render/detail/image_method.h"
 
 #include "alcove/base/parallel.h"
 #include "alcove/render/detail/hit_values.h"
@@ -12,12 +13,12 @@ namespace {
 
 constexpr std::size_t samples_at_once = std::size_t{1} << 18;
 
-/// Rectangles that cover the image, of as many samples as are worked on at once, or of a single pixel.
+/// Splits the image into rectangles of at most samples_at_once samples, but at least one pixel.
 std::vector<PixelRegion> regions(ImageSize size, int samples) {
     const auto pixels = std::max<std::size_t>(1, samples_at_once / static_cast<std::size_t>(samples));
     const int columns = static_cast<int>(std::min(pixels, static_cast<std::size_t>(size.width)));
-    int rows = static_cast<int>(
-        std::min(pixels / static_cast<std::size_t>(columns), static_cast<std::size_t>(size.height)));
+    int rows =
+        static_cast<int>(std::min(pixels / static_cast<std::size_t>(columns), static_cast<std::size_t>(size.height)));
     if (rows > CameraRays::tile_side)
         rows -= rows % CameraRays::tile_side;
     std::vector<PixelRegion> all;
@@ -27,20 +28,19 @@ std::vector<PixelRegion> regions(ImageSize size, int samples) {
     return all;
 }
 
-/// The values of the pixels of a region, for each of their samples.
-std::vector<float> spread(const std::vector<float>& pixels, int width, const PixelRegion& region,
-                          int samples) {
+/// Repeats the value of each pixel of a region for each of its samples.
+std::vector<float> spread(const std::vector<float>& pixels, int width, const PixelRegion& region, int samples) {
     std::vector<float> values;
     values.reserve(region.pixels() * static_cast<std::size_t>(samples));
     for (int y = region.y; y < region.y + region.height; ++y)
         for (int x = region.x; x < region.x + region.width; ++x)
-            values.insert(values.end(), static_cast<std::size_t>(samples),
-                          pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                 static_cast<std::size_t>(x)]);
+            values.insert(
+                values.end(), static_cast<std::size_t>(samples),
+                pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]);
     return values;
 }
 
-/// Averages the samples of the pixels of a region.
+/// Averages the samples of each pixel of a region.
 class Resolver {
   public:
     Resolver(const Renderable& renderable, const Vec3d& eye, const RenderOptions& options, Image& image)
@@ -95,9 +95,9 @@ class Resolver {
             }
         }
         const float share = 1.0f / static_cast<float>(options_.samples);
-        const auto set = [&](Pass pass, auto& place, const auto& mean) {
+        const auto set = [&](Pass pass, auto& values, const auto& mean) {
             if (image_.passes.has(pass))
-                place[i] = mean;
+                values[i] = mean;
         };
         image_.alpha[i] = share * alpha;
         set(Pass::beauty, image_.color, share * color);
@@ -125,8 +125,7 @@ class Resolver {
 Lighting studio_lighting(const Camera& camera, const Vec3d& up) {
     Lighting lighting;
     lighting.up = Vec3(glm::normalize(up));
-    lighting.toward_key =
-        Vec3(glm::normalize(-0.6 * camera.right() + 0.7 * camera.up() - 0.6 * camera.forward()));
+    lighting.toward_key = Vec3(glm::normalize(-0.6 * camera.right() + 0.7 * camera.up() - 0.6 * camera.forward()));
     return lighting;
 }
 
@@ -146,15 +145,13 @@ Image render(const Renderable& renderable, const Camera& camera, const RenderOpt
     std::size_t finished = 0;
     Hits hits;
     for (const PixelRegion& region : regions(camera.size(), options.samples)) {
-        hits.resize(region.pixels() * static_cast<std::size_t>(options.samples),
-                    options.passes.has(Pass::steps));
+        hits.resize(region.pixels() * static_cast<std::size_t>(options.samples), options.passes.has(Pass::steps));
         parallel_for(region.tiles(CameraRays::tile_side), 32,
                      [&](std::size_t begin, std::size_t end) { rays.trace(region, begin, end, hits); });
         if (renderable.mesh) {
             hits.painted.resize(renderable.mesh->painted.empty() ? 0 : hits.surfels.size());
-            parallel_for(
-                hits.surfels.size(), 16 * RayBatch::capacity,
-                [&](std::size_t begin, std::size_t end) { snap(renderable, camera, begin, end, hits); });
+            parallel_for(hits.surfels.size(), 16 * RayBatch::capacity,
+                         [&](std::size_t begin, std::size_t end) { snap(renderable, camera, begin, end, hits); });
         }
         const auto done = [&](double part) {
             if (progress)

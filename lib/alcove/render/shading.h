@@ -1,87 +1,89 @@
-/// From geometry, occlusion and light to colour: pure functions, linear light.
+/// Shading with ambient occlusion: pure functions in linear light.
 ///
-/// Source of all but srgb_encoded(): "SDF Ambient Occlusion — Detailed Reference" (2026), its ways to use occlusion in
-/// light. n is the normal, u = n·up, v the direction toward the eye; all vectors are of unit length.
+/// Source of all but srgb_encoded(): the lighting formulas of sdfao2026. n is the normal, u = n·up, v the direction
+/// toward the eye; all vectors have unit length.
 #pragma once
 
 #include "alcove/base/types.h"
 
 #include <glm/common.hpp>
 
+#include "alcove/field/field.h"
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace alcove {
 
-/// Which light occlusion takes from.
+/// The light that occlusion attenuates.
 enum class OcclusionUse {
     ambient,    ///< diffuse·shadow + ambient·ao
     everything, ///< (diffuse·shadow + ambient)·ao
     sky,        ///< diffuse·shadow + ambient·ao·(½ + ½ u)
 };
 
-/// One key light, the sky, and what the ground throws back. All vectors in scene directions, unit length.
+/// A key light, the sky, and light reflected by the ground. Directions are scene directions of unit length; colours
+/// are the light on a surface as described.
 struct Lighting {
-    Vec3 up{0.0f, 1.0f, 0.0f}; ///< where the sky is
-    Vec3 toward_key{0.0f, 1.0f, 0.0f};
-    Vec3 key{0.48f, 0.45f, 0.40f};    ///< a surface that faces the key
-    Vec3 sky{0.48f, 0.51f, 0.56f};    ///< an open surface that faces up: the ambient light
-    Vec3 ground{0.20f, 0.18f, 0.16f}; ///< an open surface that faces down
+    Vec3 up{0.0f, 1.0f, 0.0f};         ///< toward the sky
+    Vec3 toward_key{0.0f, 1.0f, 0.0f}; ///< toward the key light
+    Vec3 key{0.48f, 0.45f, 0.40f};     ///< on a surface that faces the key light
+    Vec3 sky{0.48f, 0.51f, 0.56f};     ///< on an open surface that faces up: the ambient light
+    Vec3 ground{0.20f, 0.18f, 0.16f};  ///< on an open surface that faces down
     OcclusionUse use = OcclusionUse::sky;
 };
 
-/// What a surface makes of light.
 struct Material {
-    Vec3 color{0.8f};                 ///< share of the light that it gives back, in [0, 1]
-    std::optional<Vec3> edge_color{}; ///< of convex edges
-    Vec3 subsurface{0.0f};            ///< light that comes from within where nothing occludes
-    float reflection = 0.0f;          ///< of the sky at grazing angles, in [0, 1]
+    Vec3 color{0.8f};                 ///< diffuse reflectance, in [0, 1]
+    std::optional<Vec3> edge_color{}; ///< diffuse reflectance of convex edges
+    Vec3 subsurface{0.0f};            ///< subsurface light of an unoccluded point
+    float reflection = 0.0f;          ///< reflectance of the sky at grazing angles, in [0, 1]
     float occlusion = 1.0f;           ///< multiplies the computed ao, in [0, 1]
 };
 
-/// What is known of a place of the surface.
+/// The inputs of shading at a point of the surface.
 struct Place {
     Vec3 normal{0.0f, 1.0f, 0.0f};
     Vec3 to_eye{0.0f, 1.0f, 0.0f};
-    float ao = 1.0f, shadow = 1.0f; ///< shares of light that arrive
+    float ao = 1.0f, shadow = 1.0f; ///< shares of the light that arrive
     float convexity = 0.5f;
     float painted = 1.0f; ///< multiplies ao, as the material's occlusion does
 };
 
-/// The share of the sky above a surface that nothing covers: ½ + ½ u.
+/// The share of the sky that an unoccluded surface sees: ½ + ½ u.
 inline float sky_visibility(float upward) {
     return 0.5f + 0.5f * upward;
 }
 
-/// The share of the ground's light: clamp(−u) ao.
+/// The share of the light reflected by the ground: clamp(−u) ao.
 inline float bounce(float upward, float ao) {
     return std::clamp(-upward, 0.0f, 1.0f) * ao;
 }
 
-/// The share of the light from within: 0.05 + 0.95 ao.
+/// The share of the subsurface light: 0.05 + 0.95 ao.
 inline float subsurface(float ao) {
     return 0.05f + 0.95f * ao;
 }
 
-/// The share of the environment that is mirrored: (1 − max(0, v·n))⁵ ao. The document has v from the eye, which turns the
-/// sign.
+/// The share of the environment that is reflected: (1 − max(0, v·n))⁵ ao. In the reference v points away from the
+/// eye, which flips the sign.
 inline float fresnel(const Vec3& normal, const Vec3& to_eye, float ao) {
     const float grazing = 1.0f - std::max(0.0f, glm::dot(normal, to_eye));
     return grazing * grazing * grazing * grazing * grazing * ao;
 }
 
-/// The share of the edge colour: convexity above flat, from 0 to 1.
+/// The share of the edge colour: 0 on flat and concave surfaces, rising to 1 at convexity 1.
 inline float edge_share(float convexity) {
     return std::clamp(2.0f * convexity - 1.0f, 0.0f, 1.0f);
 }
 
-/// All of these together.
+/// The shaded colour: all the terms above combined.
 inline Vec3 shade(const Lighting& lighting, const Material& material, const Place& place) {
     const float ao = place.ao * material.occlusion * place.painted;
     const float upward = glm::dot(place.normal, lighting.up);
-    const Vec3 direct =
-        std::max(0.0f, glm::dot(place.normal, lighting.toward_key)) * place.shadow * lighting.key;
+    const Vec3 direct = std::max(0.0f, glm::dot(place.normal, lighting.toward_key)) * place.shadow * lighting.key;
     Vec3 light(0.0f);
     switch (lighting.use) {
     case OcclusionUse::ambient:
@@ -95,17 +97,33 @@ inline Vec3 shade(const Lighting& lighting, const Material& material, const Plac
         break;
     }
     light += bounce(upward, ao) * lighting.ground;
-    const Vec3 color = material.edge_color
-                           ? glm::mix(material.color, *material.edge_color, edge_share(place.convexity))
-                           : material.color;
+    const Vec3 color = material.edge_color ? glm::mix(material.color, *material.edge_color, edge_share(place.convexity))
+                                           : material.color;
     return color * light + subsurface(ao) * material.subsurface +
            material.reflection * fresnel(place.normal, place.to_eye, ao) * lighting.sky;
 }
 
-/// Linear light in [0, 1] to the sRGB curve; values outside are clamped. IEC 61966-2-1 (1999).
+/// Applies the sRGB transfer function to linear light, clamped to [0, 1] (srgb1999).
 inline float srgb_encoded(float linear) {
     const float x = std::clamp(linear, 0.0f, 1.0f);
     return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
 }
+
+/// The share of sunlight at a point p, marched along t toward the sun l with the distance d:
+///
+///     min(1, min over t of sharpness·d(p + t l)/t), 0 if the ray hits the surface
+///
+/// Source: sdfao2026, which marches t from 0.02 to 20 in a scene with a diagonal of 5.73. Lengths in unit space. A
+/// field carries no information within two voxels of the surface, so rays start at least that far away.
+struct SoftShadow {
+    float sharpness = 8.0f; ///< > 0; larger values give harder edges
+    float begin = 0.02f / 5.73f;
+    float end = 20.0f / 5.73f;
+};
+
+/// One share of sunlight per surfel, in [0, 1]; 0 if it faces away from the sun, 1 if it has no normal. `toward_sun`
+/// has unit length. Thread-safe. Cost: 5–30 map() calls per surfel that faces the sun.
+std::vector<float> soft_shadows(std::span<const Surfel> surfels, const AnyField& field, const Vec3& toward_sun,
+                                const SoftShadow& shadow = {});
 
 }

@@ -1,4 +1,4 @@
-#include "alcove/render/soft_shadow.h"
+#include "alcove/render/shading.h"
 
 #include "alcove/base/parallel.h"
 
@@ -10,12 +10,12 @@ namespace alcove {
 namespace {
 
 constexpr std::size_t capacity = 256;
-constexpr int most_steps = 512;
+constexpr int max_steps = 512;
 
-/// Marches up to `capacity` ways at once.
-class Ways {
+/// Marches up to `capacity` shadow rays at once.
+class ShadowRays {
   public:
-    Ways(const AnyField& field, const Vec3& toward_sun, const SoftShadow& shadow)
+    ShadowRays(const AnyField& field, const Vec3& toward_sun, const SoftShadow& shadow)
         : field_(field), toward_sun_(toward_sun), shadow_(shadow), both_sides_(two_sided(field)),
           shortest_(std::max(0.25f * resolution(field), 1e-4f)),
           begin_(std::max(shadow.begin, 2.0f * resolution(field))) {}
@@ -30,7 +30,7 @@ class Ways {
     }
 
     void march() {
-        for (int step = 0; step < most_steps && count_ > 0; ++step) {
+        for (int step = 0; step < max_steps && count_ > 0; ++step) {
             for (std::size_t i = 0; i < count_; ++i) {
                 const Vec3 p = origin_[i] + travelled_[i] * toward_sun_;
                 x_[i] = p.x, y_[i] = p.y, z_[i] = p.z;
@@ -41,7 +41,7 @@ class Ways {
                 const float d = both_sides_ ? std::fabs(distance_[i]) : distance_[i];
                 float& light = *light_[i];
                 light = std::min(light, shadow_.sharpness * std::max(d, 0.0f) / travelled_[i]);
-                constexpr float dark = 1e-3f; // less than an image shows
+                constexpr float dark = 1e-3f; // invisible in an image
                 if (light < dark)
                     light = 0.0f;
                 const float travelled = travelled_[i] + std::max(d, shortest_);
@@ -70,20 +70,20 @@ class Ways {
 
 }
 
-std::vector<float> soft_shadows(std::span<const Surfel> surfels, const AnyField& field,
-                                const Vec3& toward_sun, const SoftShadow& shadow) {
+std::vector<float> soft_shadows(std::span<const Surfel> surfels, const AnyField& field, const Vec3& toward_sun,
+                                const SoftShadow& shadow) {
     std::vector<float> light(surfels.size(), 1.0f);
     parallel_for(surfels.size(), 16 * capacity, [&](std::size_t begin, std::size_t end) {
-        Ways ways(field, toward_sun, shadow);
+        ShadowRays rays(field, toward_sun, shadow);
         for (std::size_t i = begin; i < end; ++i) {
             if (!surfels[i].has_normal())
                 continue;
             if (glm::dot(surfels[i].normal, toward_sun) > 0.0f)
-                ways.add(surfels[i].position, light[i]);
+                rays.add(surfels[i].position, light[i]);
             else
                 light[i] = 0.0f;
         }
-        ways.march();
+        rays.march();
     });
     return light;
 }

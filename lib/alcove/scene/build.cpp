@@ -1,7 +1,8 @@
-#include "alcove/scene/build.h"
+#include "alcove/render/detail/image_method.h"
+#include "alcove/scene/scene.h"
 
 #include "alcove/base/errors.h"
-#include "alcove/field/combine.h"
+#include "alcove/field/primitives.h"
 #include "alcove/scene/detail/shape_fields.h"
 #include "alcove/scene/detail/support.h"
 #include "alcove/scene/detail/triangles.h"
@@ -15,7 +16,7 @@
 namespace alcove {
 namespace {
 
-constexpr double memory_limit = 4e9; // of all grids together
+constexpr double memory_limit = 4e9; // bytes, for all grids together
 
 Box box_around(const std::vector<LoadedShape>& shapes) {
     Box box;
@@ -27,12 +28,12 @@ Box box_around(const std::vector<LoadedShape>& shapes) {
     return box;
 }
 
-/// Of the grid of a loaded, scene units.
+/// The finest voxel of a loaded shape, scene units.
 double voxel_of(const LoadedShape& loaded) {
     return double(loaded.stack.levels.front().voxel) * loaded.stack.frame.diagonal * loaded.pose.scale;
 }
 
-/// The finest voxel that the scene itself names, unit space; 0 where it names none.
+/// The finest voxel that the scene or its level sets specify, unit space; 0 if none.
 float named_voxel(const std::vector<LoadedShape>& shapes, const Frame& frame) {
     double finest = std::numeric_limits<double>::infinity();
     for_each_shape(shapes, [&](const LoadedShape& loaded) {
@@ -65,16 +66,16 @@ AnyField united(const std::vector<Part>& parts) {
     return UnionOf<AnyField>(std::move(fields));
 }
 
-/// As far as distances are to be right. A soft shadow tells those from less than the way, over its sharpness.
+/// The distance up to which the field must be correct. A soft shadow depends on distances below t/sharpness only.
 float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity) {
     const bool shadow = need_shadow(passes, scene.light.casts_shadow);
     const SoftShadow& shape = scene.light.shadow;
-    return std::max(scene.occlusion.method || convexity ? radius : 0.0f,
-                    shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
+    const bool occludes = scene.occlusion.method || scene.occlusion.is_planned();
+    return std::max(occludes || convexity ? radius : 0.0f, shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
 }
 
-/// The gradient's direction, by differences.
-Vec3 steepest(const AnyField& field, const Vec3& p) {
+/// Direction of the gradient, by central differences.
+Vec3 gradient_direction(const AnyField& field, const Vec3& p) {
     constexpr float h = 1e-3f;
     Vec3 gradient;
     for (int axis = 0; axis < 3; ++axis) {
@@ -92,8 +93,8 @@ bool has_edge_colors(const Scene& scene) {
                        [](const SceneObject& object) { return object.material.edge_color.has_value(); });
 }
 
-/// The height of the lowest point, scene units: that of a shape or of vertices, else of points of the surface a 64th of
-/// the loaded apart, which a round bottom is lower than by a thousandth of it.
+/// The height of the lowest point, scene units. Exact for analytic shapes and meshes; otherwise from surface points
+/// 1/64 of the shape apart, which miss a round bottom by a thousandth of the shape.
 double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& frame, const Vec3d& up) {
     if (const std::optional<double> height = support(loaded.object->shape, loaded.pose, -up))
         return -*height;
@@ -108,7 +109,7 @@ double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& fra
     for (const Vec3d& p : outline(in_own, own).points) {
         Vec3 q = own.to_unit(p);
         for (int round = 0; round < 3; ++round)
-            q -= in_own.map(q) * steepest(in_own, q);
+            q -= in_own.map(q) * gradient_direction(in_own, q);
         if (std::fabs(in_own.map(q)) < 1e-4f)
             height = std::min(height, glm::dot(up, own.to_scene(q)));
     }
@@ -117,19 +118,52 @@ double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& fra
 
 }
 
+/// Rays of guided per sample of a pixel. With four samples per pixel, the RMSE of its ao was 0.018, 0.012 and 0.007 at
+/// 1, 4 and 16 rays on a scan and on a part.
+int guided_rays(Quality quality) {
+    return quality == Quality::draft ? 1 : quality == Quality::good ? 4 : 16;
+}
+
+/// Default rays per sample of the other methods. With the samples of a pixel, a pixel gets as many rays as a vertex of a
+/// bake.
+constexpr int rays_per_sample = 16;
+
+/// The method of a scene. `make_triangles` is called with whether shapes that are not meshes need triangles as well.
+template <class MakeTriangles>
+MethodChoice choose_occlusion(const SceneOcclusion& occlusion, const MakeTriangles& make_triangles) {
+    if (occlusion.is_planned())
+        try {
+            make_triangles(true);
+            return choose(find_method("guided"), guided_rays(*occlusion.quality));
+        } catch (const InputError&) { // a shape has no zero surface
+            make_triangles(false);
+            return choose(find_method("traced"), rays_per_sample);
+        }
+    const Method* method = occlusion.method;
+    make_triangles(method && method->needs_mesh);
+    if (!method)
+        return {};
+    MethodChoice choice = choose(*method);
+    if (method->samples_are == SampleKind::rays)
+        choice.samples = std::min(choice.samples, rays_per_sample);
+    for (const auto& [name, value] : occlusion.parameters)
+        if (name == parameter_of(method->samples_are))
+            choice.samples = static_cast<int>(value);
+    return choice;
+}
+
 BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progress) {
-    constexpr std::size_t most_objects = 60000; // numbers of 16 bits
-    if (scene.objects.size() > most_objects)
-        throw InputError(fmt::format("the scene has {} objects, {} at most: make unions of them",
-                                     scene.objects.size(), most_objects));
+    constexpr std::size_t max_objects = 60000; // ObjectId has 16 bits
+    if (scene.objects.size() > max_objects)
+        throw InputError(fmt::format("the scene has {} objects, but at most {} are possible: combine some into unions",
+                                     scene.objects.size(), max_objects));
     std::vector<LoadedShape> shapes = load_shapes(scene);
     const Box box = box_around(shapes);
     const Frame frame = frame_of(box);
     const float radius = scene.occlusion.radius.to_unit(frame.diagonal, named_voxel(shapes, frame));
     const bool convexity = need_convexity(passes, has_edge_colors(scene));
     const BuildContext common{frame, radius, reach_of(scene, passes, radius, convexity),
-                              memory_limit / std::max(1.0, static_cast<double>(count_grids(shapes))),
-                              progress};
+                              memory_limit / std::max(1.0, static_cast<double>(count_grids(shapes))), progress};
 
     std::vector<Part> parts;
     std::vector<Ground> grounds;
@@ -156,8 +190,9 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
     if (parts.empty() && grounds.empty())
         throw InputError("the scene is empty: add an [[object]]");
 
-    auto mesh = triangles_of(shapes, parts, grounds, frame,
-                             scene.occlusion.method && scene.occlusion.method->needs_mesh);
+    std::shared_ptr<const RenderableMesh> mesh;
+    const MethodChoice occlusion =
+        choose_occlusion(scene.occlusion, [&](bool all) { mesh = triangles_of(shapes, parts, grounds, frame, all); });
     AnyField field = united(parts);
     std::vector<Vec3d> points;
     if (!parts.empty())
@@ -165,10 +200,11 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
     BuiltScene built{
         .renderable = {std::move(field), frame, box, std::move(parts), std::move(grounds), std::move(mesh)},
         .points = std::move(points),
-        .radius = radius};
-    const bool several =
-        shapes.size() > 1 || std::any_of(shapes.begin(), shapes.end(),
-                                         [](const LoadedShape& loaded) { return !loaded.parts.empty(); });
+        .radius = radius,
+        .occlusion = occlusion};
+    const bool several = shapes.size() > 1 || std::any_of(shapes.begin(), shapes.end(), [](const LoadedShape& loaded) {
+                             return !loaded.parts.empty();
+                         });
     for_each_shape(shapes, [&](const LoadedShape& loaded) {
         for (const std::string& warning : loaded.warnings)
             built.warnings.push_back(several ? loaded.object->name + ": " + warning : warning);
@@ -180,30 +216,30 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
     return built;
 }
 
-/// Of an estimator that traces rays: with the samples of a pixel, what a vertex of a bake has.
-constexpr double rays_a_sample = 16.0;
+namespace {
 
-RenderOptions rendering_of(const Scene& scene, const BuiltScene& built, const Camera& camera,
-                           PassSet passes) {
+Settings settings_of(const MethodChoice& choice, float radius, std::vector<std::pair<std::string, double>> parameters) {
+    Settings settings = choice.method ? choice.settings(radius) : Settings{.radius = radius};
+    settings.parameters.insert(settings.parameters.end(), parameters.begin(), parameters.end());
+    return settings;
+}
+
+}
+
+RenderOptions rendering_of(const Scene& scene, const BuiltScene& built, const Camera& camera, PassSet passes) {
     RenderOptions options{.samples = scene.samples,
-                          .method = scene.occlusion.method,
-                          .settings = {built.radius, scene.occlusion.parameters},
+                          .method = built.occlusion.method,
+                          .settings = settings_of(built.occlusion, built.radius, scene.occlusion.parameters),
                           .image_method = scene.occlusion.image_method,
                           .lighting = studio_lighting(camera, scene.camera.up),
                           .shadow = scene.light.shadow,
                           .casts_shadow = scene.light.casts_shadow,
                           .passes = passes};
     options.lighting.use = scene.occlusion.use;
-    if (scene.occlusion.far_samples && options.method && options.method->has_parameter("samples"))
-        options.fewer =
-            FewerSamples{*scene.occlusion.far_samples,
-                         static_cast<float>(scene.occlusion.far / built.renderable.frame.diagonal)};
-    if (options.method)
-        for (const ParameterInfo& parameter : options.method->parameters())
-            if (parameter.name == "rays" && parameter.standard > rays_a_sample)
-                options.settings.parameters.emplace(options.settings.parameters.begin(), "rays",
-                                                    rays_a_sample);
-    // A plane without an end is near probes however far they are.
+    if (scene.occlusion.far_samples && options.method && options.method->samples_are == SampleKind::probes)
+        options.fewer = FewerSamples{*scene.occlusion.far_samples,
+                                     static_cast<float>(scene.occlusion.far / built.renderable.frame.diagonal)};
+    // An infinite plane is near any probe, however far away the other objects are.
     if (!built.renderable.grounds.empty())
         options.settings.max_probe_distance = 100.0f;
     const SceneLight& light = scene.light;

@@ -1,4 +1,5 @@
 #include "alcove/scene/scene.h"
+#include "alcove/render/detail/image_method.h"
 
 #include "alcove/base/errors.h"
 
@@ -6,6 +7,10 @@
 #include <cctype>
 
 namespace alcove {
+
+const MethodInfo* SceneOcclusion::info() const {
+    return method ? static_cast<const MethodInfo*>(method) : image_method;
+}
 
 void SceneOcclusion::choose(std::string_view name) {
     const MethodInfo* before = info();
@@ -20,6 +25,14 @@ void SceneOcclusion::choose(std::string_view name) {
     }
     if (info() != before)
         parameters.clear();
+    quality.reset();
+}
+
+void SceneOcclusion::choose(Quality wanted) {
+    method = nullptr;
+    image_method = nullptr;
+    parameters.clear();
+    quality = wanted;
 }
 
 Scene scene_of(const std::filesystem::path& file) {
@@ -27,8 +40,7 @@ Scene scene_of(const std::filesystem::path& file) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return std::tolower(c); });
     Scene scene;
-    scene.objects.push_back(
-        {file.string(), extension == ".vdb" ? Shape(GridShape{file}) : Shape(MeshShape{file})});
+    scene.objects.push_back({file.string(), extension == ".vdb" ? Shape(GridShape{file}) : Shape(MeshShape{file})});
     scene.ground = SceneGround{};
     return scene;
 }

@@ -1,14 +1,14 @@
-/// What a picture is of, as plain data: objects, light, camera and size, before any file is read or grid made.
+/// Scenes: as plain data (objects, light, camera, image size), as files, and built into what can be rendered.
 #pragma once
 
-#include "alcove/base/length.h"
+#include "alcove/bake/bake.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
-#include "alcove/render/image_method.h"
 #include "alcove/render/shading.h"
-#include "alcove/render/soft_shadow.h"
 
+#include "alcove/render/renderer.h"
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,21 +17,21 @@
 
 namespace alcove {
 
-/// p' = rotation · (scale · p) + translation, in scene units; turned about x, then y, then z.
+/// p' = rotation · (scale · p) + translation, in scene units; rotated about x, then y, then z.
 struct Placement {
     Vec3d translation{0.0};
-    Vec3d rotation{0.0}; ///< degrees, counterclockwise seen from the end of each axis
+    Vec3d rotation{0.0}; ///< degrees, counterclockwise as seen from the tip of each axis
     double scale = 1.0;  ///< > 0
 };
 
-// The shapes, in scene units before they are placed. What they mean is in field/primitives.h.
+// The shapes, in scene units before placement. field/primitives.h defines them.
 struct SphereShape {
     Vec3d center{0.0};
     double radius = 1.0;
 };
 struct BoxShape {
     Vec3d center{0.0};
-    Vec3d size{1.0}; ///< from face to face
+    Vec3d size{1.0}; ///< full edge lengths
 };
 struct TorusShape {
     Vec3d center{0.0};
@@ -41,20 +41,19 @@ struct CapsuleShape {
     Vec3d start{0.0}, end{0.0, 1.0, 0.0};
     double radius = 0.5;
 };
-/// Below it all is solid.
+/// Solid below the plane.
 struct PlaneShape {
     Vec3d point{0.0};
     Vec3d normal{0.0, 1.0, 0.0}; ///< of any length but 0
 };
 struct MeshShape {
     std::filesystem::path file;
-    std::optional<Length>
-        voxel{}; ///< of the mesh's own diagonal where it is a share; chosen where it is none
+    std::optional<Length> voxel{}; ///< by default automatic; a percentage is of the mesh's own diagonal
     SignChoice sign = SignChoice::automatic;
-    bool own_normals = true; ///< of the mesh (corner_normals()) instead of those of the field
-    bool painted = false;    ///< the brightness of its vertex colours multiplies occlusion
+    bool own_normals = true; ///< use the normals of the mesh (corner_normals()), not those of the field
+    bool painted = false;    ///< the brightness of its vertex colours multiplies the ao
 };
-/// A level set in a .vdb.
+/// A level set in a .vdb file.
 struct GridShape {
     std::filesystem::path file;
 };
@@ -62,47 +61,54 @@ struct SceneObject;
 struct CompositeShape {
     enum class Operation { unite, subtract };
     Operation operation = Operation::unite;
-    std::vector<SceneObject> parts; ///< at least one; their materials are passed over
-    double blend = 0.0;             ///< width of rounded seams, scene units, >= 0
+    std::vector<SceneObject> parts; ///< at least one; their materials are ignored
+    double blend = 0.0;             ///< width of the rounded seams, scene units, >= 0
 };
 
-using Shape = std::variant<SphereShape, BoxShape, TorusShape, CapsuleShape, PlaneShape, MeshShape, GridShape,
-                           CompositeShape>;
+using Shape =
+    std::variant<SphereShape, BoxShape, TorusShape, CapsuleShape, PlaneShape, MeshShape, GridShape, CompositeShape>;
 
 struct SceneObject {
-    std::string name; ///< for messages
+    std::string name; ///< used in messages
     Shape shape;
     Placement placement{};
     Material material{};
 };
 
-/// The plane below the lowest point of all that is bounded; it fades into the background.
+/// A ground plane that fades into the background.
 struct SceneGround {
     Material material{};
-    std::optional<double> height{}; ///< along the camera's up direction; none: below the lowest point
+    std::optional<double> height{}; ///< along the camera's up direction; by default the lowest point
 };
 
-/// What is not given is that of studio_lighting().
+/// Unset members are those of studio_lighting().
 struct SceneLight {
     std::optional<Vec3d> toward_sun{};          ///< of any length but 0
-    std::optional<Vec3> sun{}, sky{}, bounce{}; ///< Lighting's key, sky and ground
+    std::optional<Vec3> sun{}, sky{}, bounce{}; ///< key, sky and ground of Lighting
     SoftShadow shadow{};                        ///< of the sun
-    bool casts_shadow = true;                   ///< else it shines through
+    bool casts_shadow = true;                   ///< whether the sun casts shadows
 };
 
 struct SceneOcclusion {
-    const Method* method = &find_method("traced"); ///< null: none, or that of images
-    const ImageMethod* image_method = nullptr;     ///< beside a method that is null
-    Length radius{0.1, Length::Unit::diagonal};    ///< of the box around all that is bounded
+    /// Chooses a method and its rays where none is named: guided, or traced for shapes without a zero surface.
+    std::optional<Quality> quality = Quality::good;
+    const Method* method = nullptr;             ///< null if none is named, or an image method
+    const ImageMethod* image_method = nullptr;  ///< set only if `method` is null
+    Length radius{0.1, Length::Unit::diagonal}; ///< a percentage is of the box around all bounded objects
     std::vector<std::pair<std::string, double>> parameters{};
     OcclusionUse use = OcclusionUse::sky;
-    std::optional<int> far_samples{}; ///< at the distance `far` from the eye and beyond; else as near it
-    double far = 0.0;                 ///< scene units, > 0 where there are far_samples
+    std::optional<int> far_samples{}; ///< samples at the distance `far` from the eye and beyond
+    double far = 0.0;                 ///< scene units; > 0 if far_samples is set
 
-    /// Of whichever it is; null for none.
-    const MethodInfo* info() const { return method ? static_cast<const MethodInfo*>(method) : image_method; }
-    /// Chooses by name, `none` included, and forgets the parameters of another. \throw InputError listing the names.
+    /// Whether the quality chooses the method.
+    bool is_planned() const { return quality && !method && !image_method; }
+    /// The named method or image method; null if none is named.
+    const MethodInfo* info() const;
+    /// Chooses a method by name, or "none"; clears the parameters if the method changes. \throw InputError for an
+    /// unknown name, listing the known ones.
     void choose(std::string_view name);
+    /// Chooses by quality; clears the parameters.
+    void choose(Quality wanted);
 };
 
 struct Scene {
@@ -112,10 +118,38 @@ struct Scene {
     SceneOcclusion occlusion{};
     CameraOptions camera{};
     ImageSize size{};
-    int samples = 4; ///< rays a pixel
+    int samples = 4; ///< rays per pixel
 };
 
-/// The scene of one file without a word on how it is to be seen: on a ground. A .vdb is a level set, all else a mesh.
+/// A scene with one file as its only object, on a ground. A .vdb is a level set; any other file is a mesh.
 Scene scene_of(const std::filesystem::path& file);
+
+/// Paths in the scene are relative to its folder; the files are not opened. \throw InputError, with file, line and fix,
+/// for invalid TOML, an unknown key (naming the closest known one), a value of the wrong type or out of range, and if
+/// the file cannot be opened; IoError if it cannot be read.
+Scene read_scene(const std::filesystem::path& file);
+
+struct BuiltScene {
+    Renderable renderable;
+    std::vector<Vec3d> points; ///< surface points of the bounded objects, to aim a camera at; scene units
+    float radius = 0.0f;       ///< radius of occlusion, unit space
+    MethodChoice occlusion{};  ///< no method if there is none, or an image method
+    double voxel = 0.0;        ///< largest of the objects' finest voxels, scene units; 0 without grids
+    std::size_t levels = 0;    ///< largest number of levels of an object
+    std::vector<std::string> warnings{};
+};
+
+/// Unit space is that of the box around all bounded objects; a radius in % refers to its diagonal. Level sets with a
+/// smaller reach than occlusion and soft shadows need for `passes` are extended by extend_levels(). The ground is
+/// perpendicular to `up` of the scene's camera.
+///
+/// \throw InputError naming the object and its file: what read_mesh(), read_grids() and voxelize() throw; an open
+/// surface in a difference or blended union; a plane in a union or as the first part of a difference; an empty scene.
+/// LimitError as voxelize().
+BuiltScene build_scene(const Scene& scene, PassSet passes = standard_passes, const Progress& progress = {});
+
+/// The options to render a built scene with. Named methods that trace rays use 16 per sample unless the scene sets them.
+RenderOptions rendering_of(const Scene& scene, const BuiltScene& built, const Camera& camera,
+                           PassSet passes = standard_passes);
 
 }

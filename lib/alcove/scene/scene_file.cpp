@@ -1,4 +1,5 @@
-#include "alcove/scene/scene_file.h"
+#include "alcove/render/detail/image_method.h"
+#include "alcove/scene/scene.h"
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/errors.h"
@@ -15,15 +16,15 @@
 namespace alcove {
 namespace {
 
-constexpr double brightest = 1e4; // light, of which half precision holds 65,504
+constexpr double brightest = 1e4; // light; the maximum of half precision is 65,504
 
 using Materials = std::map<std::string, Material>;
 
-/// Puts the value of a key, if there is one, in its place.
+/// Assigns the value if there is one.
 template <class T, class V>
-void take(T& place, std::optional<V> value) {
+void take(T& target, std::optional<V> value) {
     if (value)
-        place = std::move(*value);
+        target = std::move(*value);
 }
 
 /// A number in [0, 1].
@@ -46,7 +47,7 @@ Material read_material(TomlTable table) {
     return material;
 }
 
-/// The `material` of a table: the name of one, or one in place.
+/// The `material` of a table: a name, or an inline table.
 Material material_of(TomlTable& table, const Materials& materials) {
     if (!table.has("material"))
         return {};
@@ -55,7 +56,7 @@ Material material_of(TomlTable& table, const Materials& materials) {
     const std::string name = *table.text("material");
     const auto found = materials.find(name);
     if (found == materials.end())
-        table.fail("material", fmt::format("names {0}, which is none: add [material.{0}]", name));
+        table.fail("material", fmt::format("is the unknown name {0}: add [material.{0}]", name));
     return found->second;
 }
 
@@ -65,7 +66,7 @@ std::optional<Length> length(TomlTable& table, std::string_view key) {
     if (table.raw()[key].is_number())
         return Length{*table.positive(key), Length::Unit::scene};
     try {
-        return parse_length(*table.text(key));
+        return Length(*table.text(key));
     } catch (const InputError& error) {
         table.fail(key, error.what());
     }
@@ -78,7 +79,7 @@ std::filesystem::path file_of(TomlTable& table, const std::filesystem::path& fol
     return folder / *file;
 }
 
-/// The shapes, in the order of their words.
+/// The shapes, in the order of `kinds`.
 enum class Kind { sphere, box, torus, capsule, plane, mesh, vdb, unite, subtract };
 const std::initializer_list<std::string_view> kinds{"sphere", "box", "torus", "capsule",   "plane",
                                                     "mesh",   "vdb", "union", "difference"};
@@ -91,14 +92,13 @@ class ObjectReader {
     SceneObject read(TomlTable table, const std::string& fallback_name, int depth) const {
         constexpr int deepest = 32;
         if (depth > deepest)
-            table.fail("", fmt::format("parts may be nested {} deep", deepest));
+            table.fail("", fmt::format("parts can be nested at most {} deep", deepest));
         const std::optional<std::size_t> kind = table.word("shape", kinds);
         if (!kind)
-            table.fail("", fmt::format("{} needs a shape: write shape = \"sphere\", or another of {}",
-                                       table.name(), fmt::join(kinds, ", ")));
+            table.fail("", fmt::format("{} needs a shape: write shape = \"sphere\", or another of {}", table.name(),
+                                       fmt::join(kinds, ", ")));
         SceneObject object;
-        object.name =
-            table.text("name").value_or(fmt::format("{} ({})", fallback_name, kinds.begin()[*kind]));
+        object.name = table.text("name").value_or(fmt::format("{} ({})", fallback_name, kinds.begin()[*kind]));
         if (object.name.empty())
             table.fail("name", "must not be empty");
         take(object.placement.translation, table.vector("translate"));
@@ -109,7 +109,7 @@ class ObjectReader {
         object.shape = read_shape(table, static_cast<Kind>(*kind), object.name, depth);
         for (const char* key : {"normals", "painted"})
             if (depth > 0 && table.has(key))
-                table.fail(key, "is for meshes by themselves: parts have the normals of their field");
+                table.fail(key, "is only for meshes that are objects: parts use the normals of their field");
         table.check_all_read();
         return object;
     }
@@ -154,9 +154,9 @@ class ObjectReader {
         case Kind::mesh: {
             MeshShape mesh{file_of(table, folder_), length(table, "voxel")};
             if (mesh.voxel && (mesh.voxel->unit == Length::Unit::voxels || std::isinf(mesh.voxel->value)))
-                table.fail("voxel", "is what vx stands for: write 0.2 (scene units) or \"0.5%\"");
+                table.fail("voxel", "takes a finite length, and not in vx: write 0.2 (scene units) or \"0.5%\"");
             constexpr SignChoice signs[] = {SignChoice::automatic, SignChoice::solid, SignChoice::sheet};
-            if (const auto sign = table.word("sign", {"auto", "signed", "unsigned"}))
+            if (const auto sign = table.word("sign", {"auto", "solid", "sheet"}))
                 mesh.sign = signs[*sign];
             mesh.own_normals = table.word("normals", {"field", "mesh"}) != std::size_t{0};
             take(mesh.painted, table.flag("painted"));
@@ -177,15 +177,14 @@ class ObjectReader {
         composite.operation = unite ? Operation::unite : Operation::subtract;
         if (const std::optional<double> width = table.number("blend")) {
             if (!(*width >= 0.0))
-                table.fail("blend", "takes a width of 0 or more, scene units");
+                table.fail("blend", "takes a width of 0 or more, in scene units");
             composite.blend = *width;
         }
         for (TomlTable& part : table.tables("part"))
-            composite.parts.push_back(read(
-                std::move(part), fmt::format("{}, part {}", name, composite.parts.size() + 1), depth + 1));
+            composite.parts.push_back(
+                read(std::move(part), fmt::format("{}, part {}", name, composite.parts.size() + 1), depth + 1));
         if (composite.parts.empty())
-            table.fail("", fmt::format("{} needs parts: write [[object.part]] below it, once for each",
-                                       table.name()));
+            table.fail("", fmt::format("{} needs parts: add an [[object.part]] below it for each", table.name()));
         return composite;
     }
 
@@ -193,7 +192,7 @@ class ObjectReader {
     std::filesystem::path folder_;
 };
 
-/// \throw InputError at the key unless the method has the parameter and it may have the value.
+/// \throw InputError at the key if the method does not have the parameter or the value is out of range.
 void check_parameter(const TomlTable& table, std::string_view key, const MethodInfo& method,
                      const std::pair<std::string, double>& parameter) {
     try {
@@ -219,9 +218,9 @@ void read_occlusion(TomlTable table, SceneOcclusion& occlusion) {
     take(occlusion.far, table.positive("far"));
     if (occlusion.far_samples.has_value() != (occlusion.far > 0.0))
         table.fail(occlusion.far_samples ? "far_samples" : "far",
-                   "needs its other half: write far_samples = 2 and far = 50, a distance from the camera");
-    if (occlusion.far_samples && !(occlusion.method && occlusion.method->has_parameter("samples")))
-        table.fail("far_samples", "is for methods that take samples, such as classic");
+                   "needs both keys: write far_samples = 2 and far = 50 (a distance from the camera)");
+    if (occlusion.far_samples && !(occlusion.method && occlusion.method->samples_are == SampleKind::probes))
+        table.fail("far_samples", "is only for methods that take samples, such as classic");
     if (occlusion.far_samples)
         check_parameter(table, "far_samples", *occlusion.method,
                         {"samples", static_cast<double>(*occlusion.far_samples)});
@@ -247,7 +246,7 @@ void read_camera(TomlTable table, CameraOptions& camera) {
         camera.fov = *fov;
     }
     if (camera.eye && camera.look_at && *camera.eye == *camera.look_at)
-        table.fail("look_at", "is the eye itself: move one of them");
+        table.fail("look_at", "is the same point as eye: move one of them");
     table.check_all_read();
 }
 
@@ -266,8 +265,7 @@ Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
             materials.emplace(name, read_material(std::move(material)));
     const ObjectReader objects(materials, folder);
     for (TomlTable& object : table.tables("object"))
-        scene.objects.push_back(
-            objects.read(std::move(object), fmt::format("object {}", scene.objects.size() + 1), 0));
+        scene.objects.push_back(objects.read(std::move(object), fmt::format("object {}", scene.objects.size() + 1), 0));
     if (std::optional<TomlTable> ground = table.table("ground")) {
         scene.ground = SceneGround{material_of(*ground, materials), ground->number("height")};
         ground->check_all_read();
@@ -303,7 +301,7 @@ Scene read_scene(const std::filesystem::path& file) {
         const toml::table root = toml::parse(bytes.view(), file.string());
         return read_tables(TomlTable(root, file.string(), "the scene"), file.parent_path());
     } catch (const toml::parse_error& error) {
-        throw InputError(fmt::format("{}:{}: is no TOML here: {}", file.string(), error.source().begin.line,
+        throw InputError(fmt::format("{}:{}: invalid TOML: {}", file.string(), error.source().begin.line,
                                      in_one_line(std::string(error.description()))));
     }
 }

@@ -38,7 +38,7 @@ std::string level_name(std::size_t level) {
     throw InputError(fmt::format("{}: {}", file.string(), in_one_line(what)));
 }
 
-/// Reads the grids of floats of a file, and passes over those of other types.
+/// Reads the float grids of a file and skips grids of other types.
 class FloatGridReader : public io::Archive {
   public:
     std::vector<FloatGrid::Ptr> read(std::istream& stream) {
@@ -66,7 +66,7 @@ class FloatGridReader : public io::Archive {
     }
 };
 
-/// All float grids of the file; the stream's own state tells a truncated file, which OpenVDB does not.
+/// Reads all float grids of a file. The stream's state reveals a truncated file, which OpenVDB does not report.
 std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     if (!stream || std::filesystem::is_directory(file))
@@ -74,27 +74,27 @@ std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     check_vdb_structure(file);
     try {
         openvdb::initialize();
-        // Else a count that is damaged is counted to the end.
+        // Without exceptions, OpenVDB would loop over a damaged count past the end of the file.
         stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
         return FloatGridReader().read(stream);
     } catch (const std::ios_base::failure&) {
         refuse(file, "ends early: the file is truncated or damaged, write it again");
     } catch (const std::exception& error) {
-        // What OpenVDB says may hold any bytes of the file: keep a readable start of it.
+        // OpenVDB's message may contain arbitrary bytes of the file: keep a readable prefix.
         std::string reason = error.what();
         reason.resize(std::min<std::size_t>(reason.size(), 100));
         std::replace_if(
             reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-        refuse(file, fmt::format("is no readable .vdb file ({}): write it again", reason));
+        refuse(file, fmt::format("is not a readable .vdb file ({}): write it again", reason));
     }
 }
 
-/// Every value finite, and as many as were written.
+/// Refuses values that are not finite, and a number of active voxels that differs from the metadata.
 void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
     const auto expected = grid.getMetadata<openvdb::Int64Metadata>("file_voxel_count");
     if (expected && static_cast<openvdb::Index64>(expected->value()) != grid.activeVoxelCount())
-        refuse(file, fmt::format("grid '{}' holds {} active voxels but announces {}: the file is damaged",
-                                 grid.getName(), grid.activeVoxelCount(), expected->value()));
+        refuse(file, fmt::format("grid '{}' has {} active voxels but declares {}: the file is damaged", grid.getName(),
+                                 grid.activeVoxelCount(), expected->value()));
     std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
     grid.tree().getNodes(leaves);
     std::atomic<std::size_t> bad{std::isfinite(grid.background()) ? 0u : 1u};
@@ -104,17 +104,17 @@ void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
     parallel_for(leaves.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t l = begin; l < end; ++l) {
             const float* const values = leaves[l]->buffer().data();
-            bad += static_cast<std::size_t>(std::count_if(values, values + leaves[l]->SIZE,
-                                                          [](float value) { return !std::isfinite(value); }));
+            bad += static_cast<std::size_t>(
+                std::count_if(values, values + leaves[l]->SIZE, [](float value) { return !std::isfinite(value); }));
         }
     });
     if (bad > 0)
-        refuse(file, fmt::format("grid '{}' holds {} values that are not finite numbers: the file is damaged",
+        refuse(file, fmt::format("grid '{}' has {} values that are not finite numbers: the file is damaged",
                                  grid.getName(), bad.load()));
 }
 
-/// Voxels inward where values are distances: up to the value that fills the inside, as far as outward where
-/// nothing is filled.
+/// The width of the inner band in voxels: down to the value that fills the inside, or that of the outer band if nothing
+/// is filled.
 float inner_band_of(const FloatGrid& grid, double voxel, float outer_band) {
     float deepest = 0.0f;
     for (auto value = grid.cbeginValueOff(); value; ++value)
@@ -129,19 +129,16 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std:
     const double size = map(0, 0);
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column)
-            if (std::fabs(map(row, column) - (row == column ? size : 0.0)) > 1e-6 * std::fabs(size) ||
-                !(size > 0.0))
-                refuse(file,
-                       fmt::format("grid '{}' has voxels that are no cubes along the axes: resample it to a "
-                                   "uniform, unrotated transform",
-                                   grid->getName()));
+            if (std::fabs(map(row, column) - (row == column ? size : 0.0)) > 1e-6 * std::fabs(size) || !(size > 0.0))
+                refuse(file, fmt::format("grid '{}' has voxels that are not axis-aligned cubes: resample it to a "
+                                         "uniform, unrotated transform",
+                                         grid->getName()));
     const double band = double(grid->background()) / size;
     if (!(band > 0.0 && band < double(std::numeric_limits<float>::max())))
-        refuse(
-            file,
-            fmt::format("grid '{}' has a background of {:g}, which is no distance outside its band: the file "
-                        "is damaged, write it again",
-                        grid->getName(), grid->background()));
+        refuse(file,
+               fmt::format("grid '{}' has a background of {:g}, which is not a distance outside its band: the file "
+                           "is damaged, write it again",
+                           grid->getName(), grid->background()));
     LevelSet level;
     level.voxel = static_cast<float>(size / frame.diagonal);
     const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
@@ -160,7 +157,7 @@ double number(const FloatGrid& grid, const char* name) {
     return meta ? meta->value() : std::nan("");
 }
 
-/// What was written before checksums, too.
+/// Whether alcove wrote the grid, also before there were checksums.
 bool is_ours(const FloatGrid& grid) {
     return grid[checksum_name] || (grid.getCreator() == creator && number(grid, "alcove:diagonal") > 0.0);
 }
@@ -169,28 +166,24 @@ void verify(const FloatGrid::Ptr& grid, const std::filesystem::path& file) {
     const auto written = grid->getMetadata<openvdb::Int64Metadata>(checksum_name);
     if ((*grid)[checksum_name] && (!written || written->value() != checksum_of({grid})))
         refuse(file,
-               fmt::format(
-                   "grid '{}' is not as alcove wrote it, as its checksum tells: the file is damaged "
-                   "or was changed; write it again, or without the metadata {} if what it holds is meant",
-                   grid->getName(), checksum_name));
+               fmt::format("grid '{}' does not match its checksum: the file is damaged or was changed after alcove "
+                           "wrote it; write it again, or remove the metadata {} if the change is intended",
+                           grid->getName(), checksum_name));
 }
 
-/// What is no distance is said, and refused where it is none of this grid.
-void outlier(const FloatGrid::Ptr& grid, const std::filesystem::path& file,
-             std::vector<std::string>& warnings) {
+/// Warns of values that are not distances; refuses the file if one is larger than the grid is wide.
+void check_outliers(const FloatGrid::Ptr& grid, const std::filesystem::path& file, std::vector<std::string>& warnings) {
     const Outliers outliers = outliers_of({grid}, grid->voxelSize().x());
     if (outliers.far > 0)
         refuse(file,
-               fmt::format(
-                   "grid '{}' holds {} values that are larger than the grid is wide, which no distances are: "
-                   "the file is damaged, write it again",
-                   grid->getName(), outliers.far));
+               fmt::format("grid '{}' has {} values that are larger than the grid is wide, so they are not distances: "
+                           "the file is damaged, write it again",
+                           grid->getName(), outliers.far));
     if (outliers.count > 0)
-        warnings.push_back(fmt::format("grid '{}' has {} of {} active voxels whose values are no distances "
-                                       "beside those of their neighbours: "
-                                       "errors of the program that made them, or of a damaged file",
-                                       in_one_line(grid->getName()), outliers.count,
-                                       grid->activeVoxelCount()));
+        warnings.push_back(fmt::format("grid '{}' has {} of {} active voxels whose values are not distances, "
+                                       "as they differ too much from their neighbours: "
+                                       "the program that wrote them is wrong, or the file is damaged",
+                                       in_one_line(grid->getName()), outliers.count, grid->activeVoxelCount()));
 }
 
 GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
@@ -201,31 +194,29 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
                           number(finest, "alcove:center_z")};
     stack.frame.diagonal = number(finest, "alcove:diagonal");
     if (!is_finite(stack.frame.center) || !std::isfinite(stack.frame.diagonal))
-        refuse(file, "has lost part of its alcove metadata: write it again");
+        refuse(file, "lacks part of its alcove metadata: write it again");
     stack.value_unit = value_unit_of(stack.frame);
     if (const double levels = number(finest, "alcove:levels");
         levels > 0.0 && levels != static_cast<double>(grids.size()))
-        refuse(file, fmt::format("holds {} of the {} levels that alcove wrote: write it again", grids.size(),
-                                 levels));
+        refuse(file,
+               fmt::format("contains {} of the {} levels that alcove wrote: write it again", grids.size(), levels));
     if (std::any_of(grids.begin(), grids.end(), [](const auto& grid) { return !(*grid)[checksum_name]; }))
-        stack.warnings.push_back(
-            "the grids carry no checksums: an earlier version wrote them, or the file is damaged");
+        stack.warnings.push_back("the grids have no checksums: an earlier version wrote them, or the file is damaged");
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
-        if (!(*grid)[checksum_name] && stack.sign == Sign::solid) // sheets jump where they turn to air
-            outlier(grid, file, stack.warnings);
+        if (!(*grid)[checksum_name] && stack.sign == Sign::solid) // the values of sheets jump where the sign ends
+            check_outliers(grid, file, stack.warnings);
         LevelSet level = level_of(grid, stack, file);
         const double voxel = number(*grid, "alcove:voxel");
         if (!(std::fabs(voxel - double(level.voxel)) <= 1e-5 * voxel))
-            refuse(file, fmt::format("grid '{}' was scaled after alcove wrote it: voxelize the mesh again",
-                                     grid->getName()));
+            refuse(file,
+                   fmt::format("grid '{}' was scaled after alcove wrote it: voxelize the mesh again", grid->getName()));
         level.voxel = static_cast<float>(voxel);
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))
-            refuse(file,
-                   fmt::format("grid '{}' has lost its alcove metadata: write it again", grid->getName()));
+            refuse(file, fmt::format("grid '{}' lacks its alcove metadata: write it again", grid->getName()));
         stack.levels.push_back(std::move(level));
     }
     return stack;
@@ -238,25 +229,24 @@ bool has_inside(const FloatGrid& grid) {
     return false;
 }
 
-/// Distances in another unit, such as voxels, are brought to that of the scene.
+/// Converts distances in another unit, such as voxels, to scene units.
 void scale_to_scene(const FloatGrid::Ptr& grid, std::vector<std::string>& warnings) {
     const double slope = slope_of({grid}, grid->voxelSize().x());
-    constexpr double alike = 1.3; // smoothing changes less
-    if (!(slope > 0.0) || (slope < alike && slope > 1.0 / alike))
+    constexpr double tolerance = 1.3; // smoothing changes the slope by less
+    if (!(slope > 0.0) || (slope < tolerance && slope > 1.0 / tolerance))
         return;
     scale_values(*grid, 1.0 / slope);
-    warnings.push_back(
-        fmt::format("grid '{}' has values that change by {:.3g} a unit of length: they are taken for "
-                    "distances in another unit, and divided by that",
-                    in_one_line(grid->getName()), slope));
+    warnings.push_back(fmt::format("grid '{}' has values that change by {:.3g} per unit of length: they are treated as "
+                                   "distances in another unit and divided by that factor",
+                                   in_one_line(grid->getName()), slope));
 }
 
-/// Active voxels where the file says that they are.
-void check_place(const FloatGrid& grid, const openvdb::CoordBBox& voxels, const std::filesystem::path& file) {
+/// Refuses a grid whose active voxels do not have the bounding box in its metadata.
+void check_bounding_box(const FloatGrid& grid, const openvdb::CoordBBox& voxels, const std::filesystem::path& file) {
     const auto low = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_min"),
                high = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_max");
     if (low && high && (voxels.min().asVec3i() != low->value() || voxels.max().asVec3i() != high->value()))
-        refuse(file, fmt::format("grid '{}' has its voxels elsewhere than it announces: the file is damaged",
+        refuse(file, fmt::format("grid '{}' does not have the bounding box that it declares: the file is damaged",
                                  grid.getName()));
 }
 
@@ -264,22 +254,21 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     auto chosen = std::find_if(grids.begin(), grids.end(),
                                [](const auto& g) { return g->getGridClass() == openvdb::GRID_LEVEL_SET; });
     if (chosen == grids.end())
-        chosen =
-            std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
+        chosen = std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
     if (chosen == grids.end() || !((*chosen)->background() > 0.0f) || (*chosen)->activeVoxelCount() == 0)
-        refuse(file, "holds no level set of floats: alcove needs signed distances, positive outside");
+        refuse(file, "contains no float level set: alcove needs signed distances, positive outside");
     if (!has_inside(**chosen))
-        refuse(file, fmt::format("grid '{}' holds no negative distance: alcove needs signed ones, negative "
+        refuse(file, fmt::format("grid '{}' has no negative distance: alcove needs signed distances, negative "
                                  "inside, and finds the surface where they change sign",
                                  (*chosen)->getName()));
-    // Programs that set voxels one by one leave the inside beyond the band as it was: outside.
+    // Programs that set voxels one by one leave the inside beyond the band at the outside value.
     openvdb::tools::signedFloodFill((*chosen)->tree());
     (*chosen)->setGridClass(openvdb::GRID_LEVEL_SET);
     std::vector<std::string> warnings;
     scale_to_scene(*chosen, warnings);
-    outlier(*chosen, file, warnings);
+    check_outliers(*chosen, file, warnings);
     const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
-    check_place(**chosen, voxels, file);
+    check_bounding_box(**chosen, voxels, file);
     const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
     Box box;
     box.add({scene.min().x(), scene.min().y(), scene.min().z()});
@@ -293,9 +282,8 @@ GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::fil
     }
     stack.value_unit = value_unit_of(stack.frame);
     if (!(glm::length(stack.frame.center) < 1e12 * (*chosen)->voxelSize().x()))
-        refuse(file, fmt::format(
-                         "grid '{}' lies so far from the origin that its voxels are not told apart: move it",
-                         (*chosen)->getName()));
+        refuse(file, fmt::format("grid '{}' is so far from the origin that its voxels coincide: move it nearer",
+                                 (*chosen)->getName()));
     stack.levels.push_back(level_of(*chosen, stack, file));
     stack.warnings = std::move(warnings);
     return stack;
@@ -313,12 +301,11 @@ void scale_values(FloatGrid& grid, double factor) {
 }
 
 void write_grids(const GridStack& stack, const std::filesystem::path& file) {
-    // OpenVDB takes no transform smaller, and floats hold no distance larger.
+    // OpenVDB accepts no smaller transform, and floats cannot represent larger distances.
     if (const double voxel = stack.levels.front().voxel * stack.frame.diagonal; voxel < 1e-10 || voxel > 1e30)
-        throw IoError(
-            fmt::format("{}: a .vdb holds voxels from 1e-10 to 1e30 scene units, these are {:.3g}: scale the "
-                        "scene",
-                        file.string(), voxel));
+        throw IoError(fmt::format("{}: voxels in a .vdb file must be from 1e-10 to 1e30 scene units, these are {:.3g}: "
+                                  "scale the scene",
+                                  file.string(), voxel));
     openvdb::GridCPtrVec grids;
     for (std::size_t i = 0; i < stack.levels.size(); ++i) {
         const LevelSet& level = stack.levels[i];
@@ -343,8 +330,7 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         put("alcove:voxel", level.voxel);
         put("alcove:outer_band", level.outer_band);
         put("alcove:inner_band", level.inner_band);
-        grid->insertMeta("alcove:sign",
-                         openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
+        grid->insertMeta("alcove:sign", openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
         grid->insertMeta(checksum_name, openvdb::Int64Metadata(checksum_of({grid})));
         grids.push_back(grid);
     }
@@ -354,12 +340,12 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         archive.setCompression(io::COMPRESS_BLOSC | io::COMPRESS_ACTIVE_MASK);
         archive.write(grids);
         archive.close();
-        // OpenVDB does not notice a full disk: only what can be read again takes the place of the old file.
+        // OpenVDB does not notice a full disk: read the new file before it replaces the old one.
         for (const FloatGrid::Ptr& grid : read_all(out.temporary()))
             verify(grid, out.temporary());
     } catch (const std::exception& error) {
         throw IoError(
-            fmt::format("{}: cannot be written whole, is the disk full? ({})", file.string(), error.what()));
+            fmt::format("{}: cannot be written completely, is the disk full? ({})", file.string(), error.what()));
     }
     out.commit();
 }
@@ -369,19 +355,17 @@ GridStack read_grids(const std::filesystem::path& file) {
     for (const FloatGrid::Ptr& grid : grids)
         check_values(*grid, file);
     if (grids.empty())
-        refuse(file, "holds no grid of floats: alcove needs a level set");
+        refuse(file, "contains no float grid: alcove needs a level set");
     std::vector<FloatGrid::Ptr> ours;
-    std::copy_if(grids.begin(), grids.end(), std::back_inserter(ours),
-                 [](const auto& g) { return is_ours(*g); });
-    std::sort(ours.begin(), ours.end(), [](const auto& a, const auto& b) {
-        return number(*a, "alcove:voxel") < number(*b, "alcove:voxel");
-    });
+    std::copy_if(grids.begin(), grids.end(), std::back_inserter(ours), [](const auto& g) { return is_ours(*g); });
+    std::sort(ours.begin(), ours.end(),
+              [](const auto& a, const auto& b) { return number(*a, "alcove:voxel") < number(*b, "alcove:voxel"); });
     try {
         for (const FloatGrid::Ptr& grid : ours)
             verify(grid, file);
         return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
     } catch (const openvdb::Exception&) {
-        refuse(file, "holds a transform that makes nothing of its voxels: write it again");
+        refuse(file, "contains a transform that cannot be inverted: write it again");
     }
 }
 

@@ -1,4 +1,4 @@
-/// Level sets in .vdb files: ours out and in again, those of any other program in.
+/// Writes and reads level sets in .vdb files; also reads those of other programs.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
@@ -8,25 +8,26 @@
 namespace alcove {
 
 /// Writes the levels as float grids `surface`, `surface_2`, ... of class level set, Blosc-compressed, with
-/// `creator` and `alcove:*` metadata, to a temporary file renamed over `file`. Values and transforms are in
-/// scene units. `alcove:checksum` is the CRC-32 of all that read_grids() takes from the grid, whatever the compression.
-/// \throw IoError if it cannot be written.
+/// `creator` and `alcove:*` metadata, to a temporary file that is renamed to `file`. Values and transforms are in
+/// scene units. `alcove:checksum` is the CRC-32 of everything that read_grids() uses, independent of the compression.
+/// \throw IoError if the file cannot be written.
 void write_grids(const GridStack& stack, const std::filesystem::path& file);
 
-/// Reads a stack that write_grids() wrote, to the same bits; from any other file the first float grid of
-/// class level set (or, without one, the first float grid with a background above 0) as a single level
-/// in the frame of its active voxels, whatever its transform as long as its voxels are cubes along the axes.
+/// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the first float grid of class
+/// level set (or else the first float grid with a background above 0) as a single level in the frame of its active
+/// voxels. Its transform may be any whose voxels are axis-aligned cubes.
 ///
-/// Damage of a stack with checksums is found, but for one time in 2³². A file of another program is refused where
-/// lengths, masks, places or counts contradict each other, zipped values do not unpack, values are not finite or are
-/// larger than the grid is wide; where values are no distances beside those of their neighbours,
-/// `GridStack::warnings` counts them. What such a file says but once is not checked: where the grid lies, and values
-/// that are off by less than about a voxel. The same holds of a stack written before there were checksums, and of the
-/// values of solids alone. Grids of other types than float are passed over. Thread-safe; by threads of parallel_for.
-/// Cost: beside that of OpenVDB, the file is read once before, and its zipped values are unpacked.
+/// In a stack with checksums, damage is detected except with a probability of 2⁻³². A file of another program is
+/// refused if its lengths, masks, offsets or counts are inconsistent, zipped values do not unpack, or values are
+/// not finite or larger than the grid is wide. `GridStack::warnings` counts values that are not distances because
+/// they differ too much from their neighbours. Errors in data that such a file stores only once cannot be detected:
+/// a wrong translation of the grid, and values that are wrong by less than about a voxel. A stack that alcove wrote
+/// before there were checksums gets the same checks, except that the values are compared with their neighbours only
+/// for solids. Ignores grids of types other than float. Thread-safe; uses the threads of parallel_for. Cost: in
+/// addition to OpenVDB's, reads the file once beforehand and unpacks its zipped values.
 ///
-/// \throw InputError naming what is wrong: no .vdb file, damaged, changed since it was written, no level set in it,
-/// voxels that are no cubes, a file that cannot be opened.
+/// \throw InputError with the reason: not a .vdb file, damaged, changed since it was written, no level set in it,
+/// voxels that are not cubes, or the file cannot be opened.
 GridStack read_grids(const std::filesystem::path& file);
 
 }

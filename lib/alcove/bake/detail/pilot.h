@@ -1,7 +1,7 @@
-/// The error of a bake, as a few of its own surfels tell it.
+/// Estimates the error of a bake at a sample of its surfels.
 #pragma once
 
-#include "alcove/occlusion/methods/exact.h"
+#include "alcove/occlusion/catalog.h"
 
 #include <cstdint>
 #include <span>
@@ -10,34 +10,43 @@
 namespace alcove {
 
 struct PilotOptions {
-    std::size_t surfels = 4096; ///< at most, >= 1, evenly along the Morton curve
-    int rays = 128;             ///< a surfel, even, >= 2
+    std::size_t surfels = 4096; ///< maximum number, >= 1, spaced evenly along the Morton curve
+    int rays = 128;             ///< per surfel, even, >= 2
 };
 
-/// As many rays altogether, of more surfels or fewer: large errors differ most from surfel to surfel, small ones drown in the
-/// noise of few rays.
-PilotOptions pilot_for(double error); ///< for errors of that size, > 0
-PilotOptions pilot_beside(int rays);  ///< for what is baked by so many rays a surfel, 0 where by none
+/// Both distribute the same total number of rays. Large errors vary most between surfels, so they need many surfels;
+/// small errors are below the noise of few rays, so they need many rays per surfel.
+PilotOptions pilot_for(double error); ///< to measure errors of about that size, > 0
+PilotOptions pilot_beside(int rays);  ///< to measure a bake with that many rays per surfel; 0 if it traces none
 
-/// Some surfels with their reference ao, by exact rays of other seeds than a bake's. Half of the rays beside the other half
-/// tell the noise of the reference, which is taken off all errors. An RMSE of 4,096 surfels is right to about 3 % where errors
-/// are alike everywhere, to 10 % where one surfel in a hundred has them all. `const` use is safe from any number of threads.
+/// A sample of surfels with their reference ao, from exact rays with other seeds than a bake. The difference between
+/// two halves of the rays gives the noise of the reference, which is subtracted from all errors. An RMSE at 4,096
+/// surfels is accurate to about 3 % if the error is the same everywhere, and to 10 % if one surfel in a hundred has all
+/// of it. Const members are thread-safe.
 class Pilot {
   public:
-    /// `surface` is what occludes the surfels; the radius may be infinite. Cost: `rays` rays for each of its
-    /// surfels, 50 ms.
-    Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius,
-          const PilotOptions& options = {});
+    static constexpr int most_rays = 1 << 20;
+    /// The error of exact is proportional to rays^-ray_exponent.
+    static constexpr double ray_exponent = 0.72;
 
-    bool empty() const { return indices_.empty(); } ///< no surfel has a normal
-    /// What errors of methods that share or predict go with: the geometric mean of the error of 16 exact rays and of the
-    /// RMS difference between neighbours, among a thousand of the pilot's surfels, over √2.
+    /// `surface` occludes the surfels. The radius, in the unit of the surfels, may be infinite. Cost: `rays` rays per
+    /// sampled surfel, about 50 ms.
+    Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius, const PilotOptions& options = {});
+
+    bool empty() const { return indices_.empty(); } ///< true if no surfel has a normal
+    /// A scale to which the errors of guided and calibrated are roughly proportional: the geometric mean of the error
+    /// of 16 exact rays and of the RMS ao difference between neighbours divided by √2, among about a thousand surfels
+    /// along the curve.
     double difficulty() const { return difficulty_; }
-    /// Of the ao of all surfels that the pilot was made of, in their order.
+    /// The RMSE of the ao of all surfels that the constructor got, in their order.
     double rmse(std::span<const float> ao) const;
-    /// Of exact rays at the pilot's radius. Cost: as many rays for each of its surfels.
+    /// The RMSE of a method that evaluates each surfel independently; `settings` include the radius. Cost: the method
+    /// at the sampled surfels.
+    double rmse_of(const Method& method, const Occluders& occluders, const Settings& settings) const;
+    /// The RMSE of exact rays at the radius of the pilot. Cost: `rays` rays per sampled surfel.
     double rmse_of_exact(int rays, std::uint32_t seed) const;
-    /// How many exact rays a surfel hold that error at the pilot's surfels, > 0; 2^20 at most.
+    /// The number of exact rays per surfel that meets `error`, > 0, at the sampled surfels; at most `most_rays`. Cost:
+    /// up to 16 calls of rmse_of_exact().
     int rays_for(double error, std::uint32_t seed) const;
 
   private:

@@ -1,4 +1,4 @@
-/// What the planner chooses from. Written by build/fit/alcove_fit_plans: do not edit.
+/// The errors and costs that the planner chooses by. Written by build/fit/alcove_fit_plans: do not edit.
 #pragma once
 
 #include <array>
@@ -7,26 +7,27 @@
 // clang-format off
 namespace alcove::plan_table {
 
-/// Of the diagonal; 1 stands for all that are larger.
+/// As fractions of the diagonal; 1 stands for all larger radii.
 inline constexpr std::array radii{0.02, 0.05, 0.1, 0.2, 0.5, 1.0};
 
-/// CPU seconds; a ray at each radius, among 2^doublings_of_rays triangles.
+/// CPU seconds. Costs per ray are for each radius, among 2^doublings_of_rays triangles.
 inline constexpr std::array seconds_per_ray{8.9e-08, 9.57e-08, 1.01e-07, 1.08e-07, 1.12e-07, 1.12e-07};
 inline constexpr double doublings_of_rays = 17;
 inline constexpr double rays_slower_per_doubling = 0.077;
 inline constexpr double tree_seconds_per_triangle = 1.82e-07;
 inline constexpr double seconds_per_grid = 0.00159;
-inline constexpr double grid_seconds_per_triangle = 4.04e-07; ///< that is voxelized
-inline constexpr double clustering_seconds_per_triangle = 6.38e-08; ///< that is left out
-inline constexpr double grid_seconds_per_voxel = 1.08e-06; ///< a cell of the finest level that the surface is in: area / voxel²
-inline constexpr double grid_seconds_of_both = 3.62e-07; ///< by the geometric mean of triangles that are voxelized and such cells
+inline constexpr double grid_seconds_per_triangle = 4.04e-07; ///< per voxelized triangle
+inline constexpr double clustering_seconds_per_triangle = 6.38e-08; ///< per triangle that clustering removes
+inline constexpr double grid_seconds_per_voxel = 1.08e-06; ///< per finest voxel on the surface: area / voxel²
+inline constexpr double grid_seconds_of_both = 3.62e-07; ///< per geometric mean of voxelized triangles and such voxels
 
 struct Row {
     std::string_view method;
     int samples;
-    float largest_voxel;       ///< as GridOptions has it
-    double seconds_per_surfel; ///< beside its rays
-    std::array<double, radii.size()> error_per_difficulty; ///< RMSE over Pilot::difficulty(), median of the meshes, at each radius
+    float largest_voxel;       ///< as in GridOptions
+    double seconds_per_surfel; ///< without its rays
+    /// RMSE / Pilot::difficulty(), median over the meshes, at each radius.
+    std::array<double, radii.size()> error_per_difficulty;
 };
 inline constexpr std::array<Row, 28> rows{{
     {"guided", 1, 1.0f / 64, 5.6e-07, {0.913, 0.921, 0.969, 0.946, 0.933, 0.985}},

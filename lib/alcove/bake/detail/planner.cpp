@@ -1,7 +1,11 @@
 #include "alcove/bake/detail/planner.h"
 
 #include "alcove/bake/detail/plan_table.h"
+#include "alcove/base/errors.h"
 #include "alcove/grid/detail/plan.h"
+#include "alcove/occlusion/methods/exact.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +13,22 @@
 namespace alcove {
 namespace {
 
-// Errors differ by a third from mesh to mesh, and then the rays that hold one by two or three times. Where many are planned, a
-// third of them tell first how it is here: as often as not they are enough, or fewer than planned are.
-constexpr int scouts_share = 3, fewest_of_scouts = 4;
+// Errors vary by a third between meshes, so the rays that meet an error vary by a factor of two or three. If many rays
+// are planned, a third of them is tried first: about half the time they suffice or show that fewer than planned do.
+constexpr int share_of_first_trial = 3, min_rays_of_trial = 4;
 
-// What bakes come to differs from what is expected of them by a factor whose logarithm has this deviation, as measured on
-// meshes that the table never saw.
+// Standard deviation of log(measured / expected error) on meshes that the table was not measured on.
 constexpr double spread = 0.3;
 
-/// How likely something expected to come to `rmse` is to hold the error.
+// With Via::grid, exact is planned only if the field costs more by both this factor and this many seconds.
+constexpr double allowed_ratio = 1.5, allowed_seconds = 0.3;
+
+/// The probability that a plan with the expected error `rmse` meets `error`.
 double chance(double rmse, double error) {
     return 0.5 * std::erfc(std::log(rmse / error) / (spread * std::sqrt(2.0)));
 }
 
-/// The table between its radii, and as at its ends beyond them.
+/// Interpolates the table; constant beyond its first and last radius.
 template <std::size_t n>
 double at_radius(const std::array<double, n>& values, float radius) {
     static_assert(n == plan_table::radii.size());
@@ -39,9 +45,12 @@ double at_radius(const std::array<double, n>& values, float radius) {
 
 double ray_seconds(const PlanRequest& request) {
     const double doublings = std::log2(static_cast<double>(std::max<std::size_t>(request.triangles, 1)));
-    const double relative =
-        1.0 + plan_table::rays_slower_per_doubling * (doublings - plan_table::doublings_of_rays);
+    const double relative = 1.0 + plan_table::rays_slower_per_doubling * (doublings - plan_table::doublings_of_rays);
     return at_radius(plan_table::seconds_per_ray, request.radius) * std::max(relative, 0.3);
+}
+
+double tree_seconds(const PlanRequest& request) {
+    return plan_table::tree_seconds_per_triangle * static_cast<double>(request.triangles);
 }
 
 double grid_seconds(const PlanRequest& request, float largest_voxel) {
@@ -49,66 +58,143 @@ double grid_seconds(const PlanRequest& request, float largest_voxel) {
     const double voxelized = triangles_voxelized(request.area, request.triangles, voxel, {.cluster = true});
     const double cells = request.area / (voxel * voxel);
     return plan_table::seconds_per_grid + plan_table::grid_seconds_per_triangle * voxelized +
-           plan_table::clustering_seconds_per_triangle *
-               (static_cast<double>(request.triangles) - voxelized) +
-           plan_table::grid_seconds_per_voxel * cells +
-           plan_table::grid_seconds_of_both * std::sqrt(voxelized * cells);
+           plan_table::clustering_seconds_per_triangle * (static_cast<double>(request.triangles) - voxelized) +
+           plan_table::grid_seconds_per_voxel * cells + plan_table::grid_seconds_of_both * std::sqrt(voxelized * cells);
 }
 
 }
 
-Planner::Planner(const PlanRequest& request, const Pilot& pilot) : error_(request.error) {
-    const auto surfels = static_cast<double>(request.surfels);
-    const double tree = plan_table::tree_seconds_per_triangle * static_cast<double>(request.triangles);
+Planner::Planner(const PlanRequest& request, const Pilot& pilot)
+    : error_(request.error), avoids_exact_(request.via == Via::grid && !request.method) {
     const int rays = pilot.rays_for(request.error, request.seed);
-    candidates_.push_back(
-        {{choose(find_method("exact"), rays), 0.0f, error_, tree + surfels * rays * ray_seconds(request)},
-         0.0,
-         tree});
+    const bool only_exact = request.method ? request.method == &find_method("exact") : request.via == Via::mesh;
+    if (!request.method || only_exact)
+        add_exact(request, rays);
+    if (!only_exact)
+        add_methods_of_field(request, pilot, rays);
+    if (request.method)
+        std::erase_if(candidates_,
+                      [&](const Candidate& candidate) { return candidate.plan.choice.method != request.method; });
+}
+
+void Planner::add_exact(const PlanRequest& request, int rays) {
+    const double tree = tree_seconds(request);
+    const double seconds = tree + static_cast<double>(request.surfels) * rays * ray_seconds(request);
+    fallback_.push_back({{choose(find_method("exact"), rays), 0.0f, error_, seconds}, 0.0, tree, false});
+}
+
+/// Adds a plan that uses the field and computes its seconds. Does nothing if its grid is impossible or the method lacks
+/// a wanted channel.
+void Planner::add(const PlanRequest& request, Plan plan, double seconds_per_surfel, bool is_bound) {
+    const Method& method = *plan.choice.method;
+    const bool is_possible = request.has_grid
+                                 ? plan.largest_voxel == GridOptions{}.largest_voxel
+                                 : chosen_voxel(request.radius, plan.largest_voxel) >= request.finest_voxel;
+    if (!is_possible || !(request.wanted & Exact::gives).without(method.gives).empty())
+        return;
+    const double grid = request.has_grid ? 0.0 : grid_seconds(request, plan.largest_voxel);
+    const double tree = method.needs_mesh ? tree_seconds(request) : 0.0;
+    const double per_surfel = plan.choice.rays() * ray_seconds(request) + seconds_per_surfel;
+    plan.seconds = grid + tree + static_cast<double>(request.surfels) * per_surfel;
+    candidates_.push_back({plan, grid, tree, is_bound});
+}
+
+void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilot, int exact_rays) {
     const auto rmse_of = [&](const plan_table::Row& row) {
         return at_radius(row.error_per_difficulty, request.radius) * std::max(pilot.difficulty(), 1e-6);
     };
-    const auto add = [&](const plan_table::Row& row, int samples, double rmse, double seconds_per_surfel) {
-        const bool there = request.has_grid
-                               ? row.largest_voxel == GridOptions{}.largest_voxel
-                               : chosen_voxel(request.radius, row.largest_voxel) >= request.finest_voxel;
-        if (!there)
-            return;
-        const MethodChoice choice = choose(find_method(row.method), samples);
-        if (!(request.wanted & Exact::gives).without(choice.method->gives).empty())
-            return;
-        const double grid = request.has_grid ? 0.0 : grid_seconds(request, row.largest_voxel);
-        const double own = choice.rays() * ray_seconds(request) + seconds_per_surfel;
-        const double of_tree = choice.method->needs_mesh ? tree : 0.0;
-        candidates_.push_back(
-            {{choice, row.largest_voxel, rmse, grid + of_tree + surfels * own}, grid, of_tree});
+    const auto plan_of = [&](const plan_table::Row& row, int samples, double rmse) {
+        return Plan{choose(find_method(row.method), samples), row.largest_voxel, rmse};
+    };
+    const auto same_series = [](const plan_table::Row& a, const plan_table::Row& b) {
+        return a.method == b.method && a.largest_voxel == b.largest_voxel;
     };
     const double target = 0.95 * error_;
-    for (std::size_t i = 0; i < plan_table::rows.size(); ++i) {
-        const plan_table::Row& row = plan_table::rows[i];
-        add(row, row.samples, rmse_of(row), row.seconds_per_surfel);
-        if (i == 0 || !find_method(row.method).needs_mesh)
+    constexpr auto& rows = plan_table::rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const plan_table::Row& row = rows[i];
+        add(request, plan_of(row, row.samples, rmse_of(row)), row.seconds_per_surfel);
+        if (!find_method(row.method).needs_mesh)
             continue;
-        // Between two counts of rays, that which is expected to be a little under the wanted error.
-        const plan_table::Row& fewer = plan_table::rows[i - 1];
-        if (fewer.method == row.method && fewer.largest_voxel == row.largest_voxel && rmse_of(row) < target &&
-            target < rmse_of(fewer)) {
+        // Between two ray counts of the table, the one whose expected error is slightly below the wanted one.
+        if (i > 0 && same_series(rows[i - 1], row) && rmse_of(row) < target && target < rmse_of(rows[i - 1])) {
+            const plan_table::Row& fewer = rows[i - 1];
             const double way = std::log(target / rmse_of(fewer)) / std::log(rmse_of(row) / rmse_of(fewer));
-            const auto samples = static_cast<int>(
-                std::ceil(fewer.samples * std::pow(double(row.samples) / fewer.samples, way)));
+            const auto samples =
+                static_cast<int>(std::ceil(fewer.samples * std::pow(double(row.samples) / fewer.samples, way)));
             if (samples < row.samples)
-                add(row, samples, target,
+                add(request, plan_of(row, samples, target),
                     fewer.seconds_per_surfel + way * (row.seconds_per_surfel - fewer.seconds_per_surfel));
         }
+        // Guided converges to exact: with as many rays its error is hardly larger, whatever the table says.
+        if (i + 1 == rows.size() || !same_series(row, rows[i + 1]))
+            for (const double more : {1.0, 1.3, 1.7, 2.25}) {
+                const int samples = std::min(static_cast<int>(std::ceil(more * exact_rays)), Pilot::most_rays);
+                add(request, plan_of(row, samples, std::pow(more, -Pilot::ray_exponent) * error_),
+                    row.seconds_per_surfel, true);
+            }
     }
 }
 
+/// Null if no untried candidate is expected to meet the error.
+const Planner::Candidate* Planner::cheapest() const {
+    const Candidate* best = nullptr;
+    const auto look_at = [&](const std::vector<Candidate>& candidates) {
+        for (const Candidate& candidate : candidates)
+            if (!candidate.tried && candidate.plan.rmse <= error_ &&
+                (!best || candidate.plan.seconds < best->plan.seconds))
+                best = &candidate;
+    };
+    look_at(candidates_);
+    if (!avoids_exact_)
+        look_at(fallback_);
+    return best;
+}
+
+Plan Planner::expected() const {
+    const Candidate* best = cheapest();
+    const auto exact = [&](std::string reason) {
+        Plan plan = fallback_.front().plan;
+        if (avoids_exact_)
+            plan.reason = std::move(reason);
+        return plan;
+    };
+    if (!best && !fallback_.empty())
+        return exact(candidates_.empty() ? "no grid fits in memory"
+                                         : "guided missed the error with as many rays as exact needs");
+    if (!best && candidates_.empty())
+        throw LimitError("no grid for the named method fits in memory: leave out --method, or use --via mesh");
+    if (!best) // the method that was named does not hold the error: the most exact of its candidates
+        best = &*std::min_element(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+            return a.tried != b.tried ? b.tried : a.plan.rmse < b.plan.rmse;
+        });
+    if (avoids_exact_ && !fallback_.empty() && best->plan.largest_voxel > 0.0f) {
+        const double field = best->plan.seconds, rays = fallback_.front().plan.seconds;
+        if (field > allowed_ratio * rays && field > rays + allowed_seconds)
+            return exact(fmt::format("the field would cost about {:.2g} s, exact rays {:.2g} s", field, rays));
+    }
+    return best->plan;
+}
+
 Plan Planner::next() const {
-    const Candidate* best = &candidates_.front();
-    for (const Candidate& candidate : candidates_)
-        if (!candidate.tried && candidate.plan.rmse <= error_ && candidate.plan.seconds < best->plan.seconds)
-            best = &candidate;
-    return scout_of(hope_of(*best)).plan;
+    const Plan planned = expected();
+    const auto is_planned = [&](const Candidate& candidate) {
+        return candidate.plan.choice == planned.choice && candidate.plan.largest_voxel == planned.largest_voxel;
+    };
+    const auto found = std::find_if(candidates_.begin(), candidates_.end(), is_planned);
+    if (found != candidates_.end())
+        return fewer_rays_before(cheap_trial_before(*found)).plan;
+    // Exact rays: where they are an equal choice, something cheaper may hold the error too.
+    return avoids_exact_ || fallback_.empty() ? planned : fewer_rays_before(cheap_trial_before(fallback_.front())).plan;
+}
+
+bool Planner::is_last(const Plan& plan) const {
+    const auto other = [&](const Candidate& candidate) {
+        return !candidate.tried &&
+               !(candidate.plan.choice == plan.choice && candidate.plan.largest_voxel == plan.largest_voxel);
+    };
+    return plan.largest_voxel == 0.0f ||
+           (fallback_.empty() && std::none_of(candidates_.begin(), candidates_.end(), other));
 }
 
 bool Planner::is_known(const Method* method) const {
@@ -117,53 +203,54 @@ bool Planner::is_known(const Method* method) const {
     });
 }
 
-/// What saves most time on the average where it is tried first: that itself where nothing does.
-const Planner::Candidate& Planner::hope_of(const Candidate& planned) const {
-    const Candidate* hope = &planned;
+/// The candidate that saves the most time on average if it is tried before `planned`; `planned` if none does.
+const Planner::Candidate& Planner::cheap_trial_before(const Candidate& planned) const {
+    const Candidate* trial = &planned;
     double saved = 0.0;
     for (const Candidate& other : candidates_) {
         if (is_known(other.plan.choice.method))
             continue;
         const bool same_grid = other.plan.largest_voxel == planned.plan.largest_voxel,
                    same_tree = other.plan.choice.method->needs_mesh && planned.plan.choice.method->needs_mesh;
-        const double in_vain = other.plan.seconds - (same_grid ? other.grid_seconds : 0.0) -
-                               (same_tree ? other.tree_seconds : 0.0);
-        const double saves = chance(other.plan.rmse, error_) * planned.plan.seconds - in_vain;
+        const double wasted =
+            other.plan.seconds - (same_grid ? other.grid_seconds : 0.0) - (same_tree ? other.tree_seconds : 0.0);
+        const double saves = chance(other.plan.rmse, error_) * planned.plan.seconds - wasted;
         if (other.plan.seconds < planned.plan.seconds && saves > saved) {
-            hope = &other;
+            trial = &other;
             saved = saves;
         }
     }
-    return *hope;
+    return *trial;
 }
 
-/// Of the same method, with a share of its rays.
-const Planner::Candidate& Planner::scout_of(const Candidate& planned) const {
-    const auto alike = [&](const Candidate& other) {
-        return other.plan.choice.method == planned.plan.choice.method;
-    };
-    const int rays = planned.plan.choice.rays() / scouts_share;
-    if (planned.plan.largest_voxel == 0.0f || is_known(planned.plan.choice.method) || rays < fewest_of_scouts)
+/// The same method with a share of its rays if it would take many and has no measured error yet; else `planned`.
+const Planner::Candidate& Planner::fewer_rays_before(const Candidate& planned) const {
+    const int rays = planned.plan.choice.rays() / share_of_first_trial;
+    if (planned.plan.largest_voxel == 0.0f || is_known(planned.plan.choice.method) || rays < min_rays_of_trial)
         return planned;
-    const Candidate* scout = &planned;
+    const Candidate* trial = &planned;
     for (const Candidate& other : candidates_)
-        if (alike(other) && other.plan.largest_voxel == planned.plan.largest_voxel &&
-            other.plan.choice.rays() <= rays &&
-            (scout == &planned || other.plan.choice.rays() > scout->plan.choice.rays()))
-            scout = &other;
-    return *scout;
+        if (other.plan.choice.method == planned.plan.choice.method &&
+            other.plan.largest_voxel == planned.plan.largest_voxel && other.plan.choice.rays() <= rays &&
+            (trial == &planned || other.plan.choice.rays() > trial->plan.choice.rays()))
+            trial = &other;
+    return *trial;
 }
 
-void Planner::learn(const Plan& tried, double rmse) {
+void Planner::update(const Plan& tried, double rmse) {
+    const auto is_tried = [&](const Candidate& candidate) {
+        return candidate.plan.choice == tried.choice && candidate.plan.largest_voxel == tried.largest_voxel;
+    };
+    const auto found = std::find_if(candidates_.begin(), candidates_.end(), is_tried);
+    const bool is_bound = found != candidates_.end() && found->is_bound;
     const double correction = rmse / std::max(tried.rmse, 1e-9);
     for (Candidate& candidate : candidates_) {
         Plan& plan = candidate.plan;
-        if (plan.choice == tried.choice && plan.largest_voxel == tried.largest_voxel)
-            candidate.tried = true;
-        if (plan.choice.method == tried.choice.method && plan.largest_voxel > 0.0f)
+        candidate.tried = candidate.tried || is_tried(candidate);
+        // The table may be wrong about a mesh although the bound by exact rays is right.
+        if (plan.choice.method == tried.choice.method && candidate.is_bound == is_bound)
             plan.rmse *= correction;
-        // Its grid is there now.
-        if (plan.largest_voxel == tried.largest_voxel && plan.largest_voxel > 0.0f) {
+        if (plan.largest_voxel == tried.largest_voxel) { // its grid exists now
             plan.seconds -= candidate.grid_seconds;
             candidate.grid_seconds = 0.0;
         }

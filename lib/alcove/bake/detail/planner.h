@@ -1,63 +1,83 @@
-/// The cheapest way to a wanted error.
+/// Chooses the cheapest method that meets an error.
 #pragma once
 
+#include "alcove/bake/bake.h"
 #include "alcove/bake/detail/pilot.h"
 #include "alcove/occlusion/catalog.h"
 
+#include <string>
 #include <vector>
 
 namespace alcove {
 
 struct PlanRequest {
-    double error = 0.02; ///< RMSE to hold, > 0
+    double error = 0.02; ///< RMSE to meet, > 0
     float radius = 0.1f; ///< unit space; may be infinite
+    Via via = Via::automatic;
+    const Method* method = nullptr; ///< the only method to plan with: exact, guided or calibrated; null: any
     std::uint32_t seed = 0;
     std::size_t surfels = 0, triangles = 0;
     double area = 0.0; ///< of the triangles, unit space
-    /// No grid is finer, unit space, as finest_voxel() in grid/plan.h has it.
+    /// The finest voxel of a grid that fits in memory, unit space, from finest_voxel() in grid/detail/plan.h.
     double finest_voxel = 0.0;
-    bool has_grid = false; ///< one of GridOptions' own voxel is there in any case, at no cost
+    bool has_grid = false; ///< a grid with the default GridOptions::largest_voxel exists anyway, at no extra cost
     ChannelSet wanted = Channel::ao;
 };
 
-/// A method with what it needs, and what it is expected to come to.
+/// A method, its grid, and its expected error and cost.
 struct Plan {
     MethodChoice choice;
-    float largest_voxel = 0.0f; ///< of its grid, as GridOptions has it; 0 for none
-    double rmse = 0.0;
-    double seconds = 0.0; ///< CPU seconds of grid, tree and occlusion on the machine of the table
+    float largest_voxel = 0.0f; ///< of its grid, as in GridOptions; 0: no grid
+    double rmse = 0.0;          ///< expected
+    double seconds = 0.0;       ///< expected CPU seconds of grid, BVH and occlusion on the machine of the table
+    /// Why the method is exact despite Via::grid; else empty.
+    std::string reason{};
 };
 
-/// Weighs exact rays, whose number the pilot tells, against guided and calibrated, as far as they give the wanted
-/// channels that exact rays give. Their errors and costs are in plan_table.h: measured on the meshes that
-/// calibrated was fitted to, errors in units of Pilot::difficulty(), medians over the meshes. Counts of
-/// rays between those of the table are reckoned from both. What a bake turned out to be corrects the others of its
-/// method. The plan depends on the mesh alone, not on the speed of the machine. Not thread-safe.
+/// Compares exact, with the number of rays from the pilot, to guided and calibrated if these provide the wanted
+/// channels. Errors and costs come from plan_table.h. They were measured on the meshes that calibrated was fitted to;
+/// errors are medians over the meshes in units of Pilot::difficulty(). Ray counts between those of the table are
+/// interpolated. The measured error of a bake corrects the expected errors of its method.
+///
+/// With Via::grid, exact is planned only if the field would cost over 50 % and over 0.3 s more, if no grid fits in
+/// memory, or if guided missed the error with as many rays as exact needs. Plans do not depend on the speed of the
+/// machine. Not thread-safe.
 class Planner {
   public:
     Planner(const PlanRequest& request, const Pilot& pilot);
 
-    /// The cheapest that is expected to hold the error and was not tried; exact rays always are. Before it, of methods that
-    /// were not tried yet, one that may hold the error and is so cheap that this saves time on the average; before many
-    /// rays of guided a few.
+    /// The cheapest untried plan that is expected to meet the error, or a trial before it: a method without a measured
+    /// error that is so cheap that trying it saves time on average, or guided with a third of many rays. \throw
+    /// LimitError if no grid for the named method fits in memory.
     Plan next() const;
-    /// Tells what a plan came to: where that is over the error, next() is another.
-    void learn(const Plan& tried, double rmse);
-    /// There is no such grid.
+    /// The same without these trials: the plan that is most likely to end the search.
+    Plan expected() const;
+    /// Whether no untried plan remains after this one.
+    bool is_last(const Plan& plan) const;
+    /// Takes the measured error of a plan into account. If it exceeds the wanted error, next() returns another plan.
+    void update(const Plan& tried, double rmse);
+    /// Removes all plans with this grid, because it does not fit in memory.
     void leave_out(float largest_voxel);
 
   private:
     struct Candidate {
         Plan plan;
-        double grid_seconds, tree_seconds; ///< of those, what is not there yet
+        double grid_seconds, tree_seconds; ///< 0 for a grid or BVH that already exists
+        bool is_bound;                     ///< its expected error is that of exact rays, a bound for guided
         bool tried = false;
     };
-    const Candidate& hope_of(const Candidate& planned) const;
-    const Candidate& scout_of(const Candidate& planned) const;
-    bool is_known(const Method* method) const; ///< one of its bakes was tried
+    void add_exact(const PlanRequest& request, int rays);
+    void add(const PlanRequest& request, Plan plan, double seconds_per_surfel, bool is_bound = false);
+    void add_methods_of_field(const PlanRequest& request, const Pilot& pilot, int exact_rays);
+    const Candidate* cheapest() const;
+    const Candidate& cheap_trial_before(const Candidate& planned) const;
+    const Candidate& fewer_rays_before(const Candidate& planned) const;
+    bool is_known(const Method* method) const; // whether one of its candidates was tried
 
     double error_;
-    std::vector<Candidate> candidates_;
+    bool avoids_exact_;
+    std::vector<Candidate> candidates_; // methods that use the field
+    std::vector<Candidate> fallback_;   // exact, if allowed; with Via::grid a last resort
 };
 
 }

@@ -19,14 +19,14 @@
 namespace alcove {
 namespace {
 
-/// What a signal handler finds: paths in memory of their own.
+/// A path that a signal handler can read: in static memory.
 struct Unfinished {
     std::atomic<int> state{0}; // 0 free, 1 being written, 2 a path
     std::array<char, PATH_MAX> path{};
 };
 std::array<Unfinished, 32> unfinished;
 
-/// The slot that holds the path from now on; -1 where none is free or the path is too long.
+/// Stores the path and returns its slot; -1 if none is free or the path is too long.
 int remember(const std::string& path) {
     if (path.size() < PATH_MAX)
         for (std::size_t slot = 0; slot < unfinished.size(); ++slot) {
@@ -61,7 +61,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
         throw IoError(target.string() + ": is a device, not a file; name a file to write");
     if (exists && ::access(target.c_str(), W_OK) != 0)
         fail(target, "cannot be written");
-    // A link stays a link: the file it points to is replaced.
+    // Keep a link: replace the file that it points to.
     std::error_code unresolved;
     if (std::filesystem::is_symlink(target, unresolved))
         target_ = std::filesystem::weakly_canonical(target);
@@ -72,7 +72,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
         temporary_ += std::to_string(random());
         temporary_ += ".part";
         forget(slot_);
-        slot_ = remember(temporary_.string()); // before it is there
+        slot_ = remember(temporary_.string()); // before the file exists, so that a signal cannot leave it behind
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) {

@@ -1,4 +1,4 @@
-/// A file that appears whole or not at all.
+/// A file that is written completely or not at all.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,8 @@
 
 namespace alcove {
 
-/// Collects bytes in a temporary file beside the target; commit() renames it over the target, the destructor
-/// of an uncommitted one removes it and leaves the target as it was. Every failure throws IoError naming the
-/// target.
+/// Collects bytes in a temporary file in the folder of the target. commit() renames it over the target; without
+/// commit(), the destructor removes it and the target is unchanged. Every failure throws IoError with the target.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::filesystem::path& target);
@@ -16,21 +15,21 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// For writers that open a path of their own.
+    /// For writers that open the file themselves.
     const std::filesystem::path& temporary() const { return temporary_; }
 
-    void write(std::string_view bytes); ///< not buffered: hand over large pieces
+    void write(std::string_view bytes); ///< unbuffered: pass large blocks
     void commit();
 
   private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
-    int slot_ = -1; ///< among the unfinished files
+    int slot_ = -1; ///< index into the list of unfinished files
 };
 
-/// Removes the temporary files of all that are not committed, when the process is about to end. Safe in a signal handler.
-/// The first 32 of them at a time are known.
+/// Removes the temporary files of all uncommitted files; for use when the process is about to end. Safe in a signal
+/// handler. Covers at most 32 files at a time.
 void remove_unfinished_files() noexcept;
 
 }

@@ -1,4 +1,4 @@
-/// How far one word is from another.
+/// The edit distance between words.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace alcove {
 
-/// Letters to put in, take out or change to make one word the other. V. I. Levenshtein, "Binary codes capable of
-/// correcting deletions, insertions, and reversals" (1966).
+/// The minimum number of insertions, deletions and replacements of letters that turn one word into the other
+/// (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }

@@ -1,5 +1,5 @@
-/// Memory of the process: large arrays on pages of 2 MB, and how much is resident. The system takes longer to hand out a
-/// page than the page takes to fill, and a mesh of a million triangles lies on tens of thousands of small ones.
+/// Large arrays on pages of 2 MB, and the resident memory of the process. Allocating a page takes longer than
+/// filling it, and a mesh of a million triangles occupies tens of thousands of small pages.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,7 @@
 
 namespace alcove {
 
-/// Asks for huge pages where they fit into [begin, begin + bytes); a hint, without effect where there are
-/// none.
+/// Requests huge pages where they fit into [begin, begin + bytes). A hint, without effect on systems without them.
 void prefer_huge_pages(void* begin, std::size_t bytes);
 
 /// Reserves room for `count` values, on huge pages.
@@ -21,8 +20,8 @@ void reserve_huge(std::vector<T>& values, std::size_t count) {
     prefer_huge_pages(values.data(), values.capacity() * sizeof(T));
 }
 
-/// Memory on huge pages; values that are given none are left as they are, to be touched first by the thread that
-/// writes them.
+/// Allocates on huge pages. Default-constructed values are left uninitialized, so that the thread that writes them
+/// touches their pages first.
 template <class T>
 struct HugeAllocator : std::allocator<T> {
     template <class U>
@@ -43,7 +42,7 @@ struct HugeAllocator : std::allocator<T> {
     }
 };
 
-/// For what is written as it grows, or in full after it got its size.
+/// For arrays that are written as they grow, or completely after resize().
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
 
@@ -56,11 +55,11 @@ std::vector<T> huge_vector(std::size_t count, const T& value = {}) {
     return values;
 }
 
-/// The most bytes that were resident at once since the program began or the peak was forgotten; 0 where the system does
-/// not tell. Not of the program that started this one, which getrusage() counts in.
+/// The peak of resident bytes since the program started or forget_peak_resident_bytes(); 0 if the system does not
+/// report it. Unlike that of getrusage(), it excludes the parent process.
 std::size_t peak_resident_bytes();
 
-/// From now on the peak is that of what follows.
+/// Resets the peak.
 void forget_peak_resident_bytes();
 
 }

@@ -1,4 +1,4 @@
-/// What messages are put together from. Internal.
+/// Building blocks of messages.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace alcove {
 
-/// The text between quotes for a message: cut to 40 characters, unprintable ones shown as '?'.
+/// The text in quotes: truncated to 40 characters, with '?' for unprintable ones.
 std::string in_quotes(std::string_view text);
 
 /// The text with '?' for each control character.

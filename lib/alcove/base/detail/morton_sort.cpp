@@ -9,19 +9,17 @@ namespace alcove {
 
 template <class Key>
 void radix_sort(HugeVector<Keyed<Key>>& items, int low, int high) {
-    constexpr int most_digit_bits = 11; // a histogram stays in the first cache
-    constexpr std::size_t least_block = 1 << 14, most_blocks = 16;
-    using Histogram = std::array<std::uint32_t, 1 << most_digit_bits>;
-    const int bits = high - low, passes = (bits + most_digit_bits - 1) / most_digit_bits;
+    constexpr int max_digit_bits = 11; // a histogram fits in the L1 cache
+    constexpr std::size_t min_block = 1 << 14, max_blocks = 16;
+    using Histogram = std::array<std::uint32_t, 1 << max_digit_bits>;
+    const int bits = high - low, passes = (bits + max_digit_bits - 1) / max_digit_bits;
     const int digit_bits = passes > 0 ? (bits + passes - 1) / passes : 0;
     const std::size_t digits = std::size_t{1} << digit_bits;
-    const std::size_t grain = std::max(least_block, (items.size() + most_blocks - 1) / most_blocks);
+    const std::size_t grain = std::max(min_block, (items.size() + max_blocks - 1) / max_blocks);
     std::vector<Histogram> blocks((items.size() + grain - 1) / grain);
     HugeVector<Keyed<Key>> other(items.size());
     for (int pass = 0; pass < passes; ++pass) {
-        const auto digit = [&](const Keyed<Key>& item) {
-            return item.key >> (low + pass * digit_bits) & (digits - 1);
-        };
+        const auto digit = [&](const Keyed<Key>& item) { return item.key >> (low + pass * digit_bits) & (digits - 1); };
         parallel_for(items.size(), grain, [&](std::size_t begin, std::size_t end) {
             Histogram& count = blocks[begin / grain];
             count.fill(0);

@@ -1,4 +1,4 @@
-/// Spatial order: Morton codes, along which near cells are near, and the radix sort that orders by them.
+/// Spatial sorting: Morton codes, which keep neighbouring cells close, and a radix sort by them.
 #pragma once
 
 #include "alcove/base/detail/memory.h"
@@ -9,14 +9,13 @@
 
 namespace alcove {
 
-/// Of a coordinate: a code has three times as many.
+/// Bits per coordinate; a code has three times as many.
 inline constexpr int morton_bits = 21;
 
-/// The place of a cell along the curve, its coordinates' bits in turn, x first. G. M. Morton, "A computer oriented
-/// geodetic data base and a new technique in file sequencing" (1966).
+/// The Morton code of a cell: the interleaved bits of its coordinates, x first (Morton 1966).
 /// \pre coordinates in [0, 2^21)
 inline std::uint64_t morton_code(const Vec3d& cell) {
-    const auto spread = [](double coordinate) { // two zero bits after each
+    const auto spread = [](double coordinate) { // inserts two zero bits before each bit
         auto x = static_cast<std::uint64_t>(coordinate);
         x = (x | x << 32) & 0x1f00000000ffff;
         x = (x | x << 16) & 0x1f0000ff0000ff;
@@ -27,10 +26,10 @@ inline std::uint64_t morton_code(const Vec3d& cell) {
     return spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z);
 }
 
-/// The cell at a place along the curve: z, y and x.
-/// \pre ten bits a coordinate at most
+/// The cell of a code, as z, y and x.
+/// \pre at most ten bits per coordinate
 inline std::array<std::uint16_t, 3> morton_cell(std::uint32_t code) {
-    const auto gathered = [](std::uint32_t x) { // what spread() made
+    const auto gathered = [](std::uint32_t x) { // inverse of spread()
         x &= 0x9249249;
         x = (x | x >> 2) & 0x30c30c3;
         x = (x | x >> 4) & 0x300f00f;
@@ -46,8 +45,8 @@ struct Keyed {
     std::uint32_t value;
 };
 
-/// Stable, by the bits of the keys from `low` to below `high`, above which all are 0. The work is cut in blocks whose
-/// number depends on the count alone, and spread over the threads.
+/// Sorts stably by the key bits [low, high); the higher bits must be 0. Multithreaded, in blocks that depend only
+/// on the number of items.
 template <class Key>
 void radix_sort(HugeVector<Keyed<Key>>& items, int low, int high);
 extern template void radix_sort(HugeVector<Keyed<std::uint32_t>>&, int, int);

@@ -1,28 +1,27 @@
-/// Union and difference of solids whose seams may be rounded. Cost: one map() of every part.
+/// Union and difference of solids with optionally rounded seams. Cost: one map() of every part.
 ///
-/// The blended distances are bounds, with and without rounding: they change no faster than the way, and are
-/// never more than the distance to the surface they describe, where every part answers distances as far as the width,
-/// outside and, of what is cut or cut away, inside.
+/// The results are bounds, with and without rounding: they have Lipschitz constant 1 and never exceed the distance
+/// to the surface that they describe. This requires that every part is correct up to the blend width outside, and,
+/// in a difference, also inside.
 #pragma once
 
-#include "alcove/field/combine.h"
+#include "alcove/field/primitives.h"
 
 #include <cassert>
 
 namespace alcove {
 
-/// The smaller of two distances, the seam between them filled where they differ by less than `width`: by a
-/// quarter of it where both are the same, and up to `width` away from a right-angled edge. Source: I. Quilez,
-/// "Smooth minimum" (2013), quadratic.
+/// The quadratic smooth minimum of two distances (Quilez 2013). It fills the seam where they differ by less
+/// than `width`: by a quarter of `width` where they are equal, and up to `width` away from a right-angled edge.
 inline float smooth_min(float a, float b, float width) {
     const float overlap = width - std::fabs(a - b);
     return std::min(a, b) - (overlap > 0.0f ? overlap * overlap / (4.0f * width) : 0.0f);
 }
 
-/// Parts folded from the first to the last by `Self::join(so_far, part)`; what they share.
+/// Base class that combines the parts from first to last by `Self::join(so_far, part)`.
 template <class Self, Field F>
 struct Folded {
-    std::vector<F> parts;     ///< solids (none is two_sided()), at least one
+    std::vector<F> parts;     ///< at least one; all solids, that is, not two_sided()
     float blend_width = 0.0f; ///< of the seams, >= 0
 
     Folded(std::vector<F> fields, float width) : parts(std::move(fields)), blend_width(width) {
@@ -61,7 +60,7 @@ struct Folded {
     const Self& self() const { return static_cast<const Self&>(*this); }
 };
 
-/// What is in any of the parts.
+/// The points in any of the parts.
 template <Field F>
 struct BlendedUnion : Folded<BlendedUnion<F>, F> {
     using Folded<BlendedUnion, F>::Folded;
@@ -75,7 +74,7 @@ struct BlendedUnion : Folded<BlendedUnion<F>, F> {
     }
 };
 
-/// What is in the first of the parts and in none of the others.
+/// The points in the first part and in none of the others.
 template <Field F>
 struct Difference : Folded<Difference<F>, F> {
     using Folded<Difference, F>::Folded;

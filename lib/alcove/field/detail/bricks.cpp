@@ -16,9 +16,8 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr int cells = BrickView::cells, samples = BrickView::samples;
 static_assert(Leaf::DIM == cells);
 
-/// The samples of a brick: its own leaf's and the first layers of seven neighbours.
-void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& origin, float value_scale,
-                float* brick) {
+/// Fills the samples of a brick from its leaf and the first layers of seven neighbours.
+void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& origin, float value_scale, float* brick) {
     for (int side = 0; side < 8; ++side) {
         const int sx = side >> 2, sy = side >> 1 & 1, sz = side & 1;
         const Coord neighbour = origin.offsetBy(sx * cells, sy * cells, sz * cells);
@@ -45,7 +44,7 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
         box.expand(leaf->origin());
     if (leaves.empty())
         box = openvdb::CoordBBox(Coord(0), Coord(0));
-    // Between the outermost voxels and the next ones, a surface may still cross.
+    // The surface may be up to one voxel outside the outermost leaves.
     for (int axis = 0; axis < 3; ++axis) {
         const float low = static_cast<float>(box.min()[axis] - 1);
         const float high = static_cast<float>(box.max()[axis] + cells);
@@ -53,7 +52,7 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
         bounds_.half_extent[axis] = 0.5f * (high - low) * voxel_;
     }
 
-    // A brick needs the leaf at its origin and the next ones up; one more brick around everything is border.
+    // A brick samples the leaf at its origin and the next ones along each axis. A border of one brick surrounds all.
     const Coord low = box.min().offsetBy(-2 * cells);
     std::size_t count = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -61,8 +60,7 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
         offset_[axis] = static_cast<float>(-(double(level.origin[axis]) / level.voxel) - low[axis]);
         count *= static_cast<std::size_t>(size_[axis]);
         if (count > std::size_t{1} << 28)
-            throw LimitError(
-                "the grid spans more than 268 million bricks of 8³ voxels: use a coarser --voxel");
+            throw LimitError("the grid spans more than 268 million bricks of 8³ voxels: use a coarser --voxel");
     }
     index_.assign(count, 0);
     const auto slot = [&](const Coord& origin) {
@@ -74,10 +72,10 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
     };
     for (const Leaf* leaf : leaves)
         for (int side = 0; side < 8; ++side)
-            index_[slot(leaf->origin().offsetBy(-cells * (side >> 2), -cells * (side >> 1 & 1),
-                                                -cells * (side & 1)))] = 1;
+            index_[slot(leaf->origin().offsetBy(-cells * (side >> 2), -cells * (side >> 1 & 1), -cells * (side & 1)))] =
+                1;
 
-    // Bricks 0 and 1 stand for all of the outside and all of the inside.
+    // Bricks 0 and 1 represent all of the outside and all of the inside.
     std::vector<Coord> origins(2);
     const auto accessor = grid.getConstAccessor();
     std::size_t i = 0;
@@ -89,7 +87,7 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
                     index_[i] = static_cast<std::int32_t>(origins.size()) * BrickView::stride;
                     origins.push_back(origin);
                     if (origins.size() > std::numeric_limits<std::int32_t>::max() / BrickView::stride - 1)
-                        throw LimitError("the grid takes more than 2.9 million bricks of 8³ voxels: use a "
+                        throw LimitError("the grid needs more than 2.9 million bricks of 8³ voxels: use a "
                                          "coarser --voxel");
                 } else {
                     index_[i] = accessor.getValue(origin) < 0.0f ? BrickView::stride : 0;

@@ -1,7 +1,8 @@
-/// One level set as dense bricks under a flat index: what makes a map() cost a few nanoseconds.
+/// Stores one level set as dense bricks with a flat index, so that a map() costs only a few nanoseconds.
 ///
-/// A brick holds 9³ samples: the 8³ of an OpenVDB leaf and the first layer of its neighbours, so that all
-/// eight corners of any cell lie in one brick. Trilinear interpolation inside the band, ±band beyond it.
+/// A brick has 9³ samples: the 8³ of an OpenVDB leaf and the first layer of its neighbours, so that all eight
+/// corners of any cell are in one brick. Interpolation is trilinear inside the band; beyond it the result is ± the
+/// band width.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -13,37 +14,37 @@
 
 namespace alcove {
 
-/// What sampling reads, as plain pointers: shared by the scalar and the SIMD sampler.
+/// The data for sampling as plain pointers.
 struct BrickView {
-    static constexpr int cells = 8;           ///< along a side of a brick
-    static constexpr int samples = cells + 1; ///< along a side of a brick
-    static constexpr int stride = 736;        ///< floats from one brick to the next: 9³ and padding
+    static constexpr int cells = 8;           ///< per side of a brick
+    static constexpr int samples = cells + 1; ///< per side of a brick
+    static constexpr int stride = 736;        ///< floats from one brick to the next: 9³ plus padding
 
     const std::int32_t* index; ///< position of each brick in `bricks`, x slowest
     const float* bricks;
     std::int32_t size[3]; ///< bricks along each axis
-    float scale;          ///< samples a unit of length
+    float scale;          ///< samples per unit of length
     float offset[3];      ///< sample coordinate = scale · p + offset
 };
 
-/// Const use is thread-safe; copies share nothing.
+/// The bricks of one level. Const use is thread-safe; copies share nothing.
 class Bricks {
   public:
-    /// Reads the OpenVDB grid of a level; `value_scale` turns its values into unit space.
-    /// \throw LimitError if the index or the bricks would not fit 32-bit positions.
+    /// Reads the OpenVDB grid of a level; `value_scale` converts its values to unit space.
+    /// \throw LimitError if the index or the bricks exceed 32-bit offsets.
     Bricks(const LevelSet& level, float value_scale);
 
     BrickView view() const;
     float voxel() const { return voxel_; }
     /// Centre of the voxel of index (0, 0, 0).
     const Vec3& origin() const { return origin_; }
-    /// Distances below this are right; above, the outermost voxel of the band spoils the interpolation.
+    /// Distances below this are correct; above, interpolation includes saturated values beyond the band.
     float usable() const { return usable_; }
-    /// A box around the surface, no more than the band and a brick wider.
+    /// A bounding box of the surface, wider by at most the band and a brick.
     const Cuboid& bounds() const { return bounds_; }
     std::size_t bytes() const { return (index_.size() + bricks_.size()) * sizeof(float); }
 
-    /// The scalar twin of sample_bricks(), and its oracle.
+    /// Scalar version of sample_bricks(), also the reference for its tests.
     float map(const Vec3& p) const;
 
   private:
@@ -56,8 +57,8 @@ class Bricks {
     Vec3 offset_{0.0f}; // sample coordinate = p / voxel + offset
 };
 
-/// distances[i] = trilinear interpolation at points[i], with the widest SIMD instructions of the running
-/// machine. Points must be finite; those outside the index read the value of its border.
+/// distances[i] = trilinear interpolation at points[i], with the widest SIMD instructions of the machine. Points
+/// must be finite; those outside the index are clamped to its border.
 void sample_bricks(const BrickView& view, const Points& points, float* distances);
 
 }

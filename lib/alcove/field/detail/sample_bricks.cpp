@@ -2,7 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alcove/field/detail/sample_bricks.cpp"
-#include <hwy/foreach_target.h> // compiles this file once a target
+#include <hwy/foreach_target.h> // compiles this file once per target
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int samples = BrickView::samples;
 
-/// One coordinate: the sample below and the way past it.
+/// Splits one coordinate into the index of the sample below and the fraction past it.
 template <class D, class V = hn::Vec<D>, class I = hn::Vec<hn::RebindToSigned<D>>>
 HWY_INLINE void locate(D d, V p, float scale, float offset, std::int32_t bricks, I& cell, V& t) {
     const V last = hn::Set(d, static_cast<float>(bricks * BrickView::cells - 1));
@@ -30,7 +30,7 @@ HWY_INLINE void gather_pair(D d, const float* values, I at, V& a, V& b) {
     a = hn::GatherIndex(d, values, at);
     b = hn::GatherIndex(d, values + 1, at);
 #else
-    // Both are one load of 64 bits: half the gathers.
+    // One 64-bit load for both halves the number of gathers.
     const hn::Repartition<std::int64_t, D> wide;
     const hn::Half<hn::RebindToSigned<D>> half;
     const auto* pairs = reinterpret_cast<const std::int64_t*>(values);
@@ -44,8 +44,7 @@ HWY_INLINE void gather_pair(D d, const float* values, I at, V& a, V& b) {
 }
 
 template <class D>
-HWY_INLINE void sample(D d, const BrickView& view, const float* x, const float* y, const float* z,
-                       float* distances) {
+HWY_INLINE void sample(D d, const BrickView& view, const float* x, const float* y, const float* z, float* distances) {
     const hn::RebindToSigned<D> di;
     using V = hn::Vec<D>;
     using I = hn::Vec<decltype(di)>;
@@ -56,10 +55,10 @@ HWY_INLINE void sample(D d, const BrickView& view, const float* x, const float* 
     locate(d, hn::LoadU(d, z), view.scale, view.offset[2], view.size[2], iz, tz);
 
     const I in_brick = hn::Set(di, BrickView::cells - 1);
-    const I brick = hn::Add(
-        hn::Mul(hn::Add(hn::Mul(hn::ShiftRight<3>(ix), hn::Set(di, view.size[1])), hn::ShiftRight<3>(iy)),
-                hn::Set(di, view.size[2])),
-        hn::ShiftRight<3>(iz));
+    const I brick =
+        hn::Add(hn::Mul(hn::Add(hn::Mul(hn::ShiftRight<3>(ix), hn::Set(di, view.size[1])), hn::ShiftRight<3>(iy)),
+                        hn::Set(di, view.size[2])),
+                hn::ShiftRight<3>(iz));
     const I local =
         hn::Add(hn::Mul(hn::Add(hn::Mul(hn::And(ix, in_brick), hn::Set(di, samples)), hn::And(iy, in_brick)),
                         hn::Set(di, samples)),

@@ -1,5 +1,4 @@
-/// Sphere tracing: rays marched through a field by the distance it answers. J. C. Hart, "Sphere tracing: a
-/// geometric method for the antialiased ray tracing of implicit surfaces" (1996).
+/// Sphere tracing: marches rays through a field in steps of its distances (Hart 1996).
 #pragma once
 
 #include "alcove/field/field.h"
@@ -12,27 +11,27 @@
 namespace alcove {
 
 struct TraceOptions {
-    float far = 1.0f;           ///< distance along the ray where a miss is certain; may be infinite
-    float hit_distance = 1e-4f; ///< the surface is reached where map() answers less
+    float far = 1.0f;           ///< distance along the ray beyond which it is a miss; may be infinite
+    float hit_distance = 1e-4f; ///< a ray hits where map() is less than this
     float shortest_step = 1e-4f;
-    int max_steps = 1024; ///< a ray that is not done by then is a miss
-    /// Steps are this many times as long as the distance, in [1, 2); one that went further than both distances tell to
-    /// be free is taken back, and the ray goes on as if it were 1. B. Keinert et al., "Enhanced Sphere Tracing" (2014).
+    int max_steps = 1024; ///< a ray without a hit after this many steps is a miss
+    /// Over-relaxation (Keinert et al. 2014): steps are this factor times the distance, in [1, 2). A step
+    /// longer than the sum of the distances at its ends is undone, and the ray continues with a factor of 1.
     float relaxation = 1.0f;
-    /// The negative side is air too, its distances are minus those to the surface, and the sign may also jump
-    /// where there is no surface: the surface is where the distance is small, or where its sign changes and
-    /// the way was long enough to have crossed it. Set for fields that are two_sided().
+    /// Set for fields that are two_sided(): the negative side is air too, and the sign may jump where there is no
+    /// surface. A ray hits where the absolute distance is small, or where the sign changes and the step was long
+    /// enough to have crossed the surface.
     bool two_sided = false;
 };
 
-/// Rays as arrays, marched together: each round is one batched map().
+/// Rays in arrays that are marched together: each step is one batched map().
 struct RayBatch {
     static constexpr std::size_t capacity = 256;
     using Values = std::array<float, capacity>;
 
     Values x, y, z;    ///< origins
     Values dx, dy, dz; ///< unit directions
-    Values travelled;  ///< in: where to start along the ray; out: where it hit, or a value of at least `far`
+    Values travelled;  ///< in: the start along the ray; out: the hit, or a value of at least `far`
     std::array<bool, capacity> hit;
     std::array<std::uint16_t, capacity> steps; ///< map() calls spent on each ray
     std::size_t count = 0;
@@ -44,7 +43,7 @@ struct RayBatch {
     }
 };
 
-/// Marches all rays of the batch. Cost: `steps` map() calls a ray.
+/// Marches all rays of the batch. Cost: `steps` map() calls per ray.
 template <Field F>
 void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
     RayBatch::Values x, y, z, distance, previous, stepped, relaxation;
@@ -61,8 +60,8 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
     const auto meets = [&](std::size_t i, float d) {
         if (!options.two_sided)
             return d < options.hit_distance;
-        // A crossed surface is no further from both places together than they are apart, but for
-        // interpolation.
+        // If the step crossed a surface, the distances at its ends add up to at most its length, apart from
+        // interpolation errors.
         constexpr float tolerance = 1.2f;
         return std::fabs(d) < options.hit_distance ||
                (d * previous[i] < 0.0f && std::fabs(d) + std::fabs(previous[i]) < tolerance * stepped[i]);
@@ -80,8 +79,7 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
             const std::uint16_t i = active[k];
             const float d = distance[k];
             ++rays.steps[i];
-            if (relaxes && relaxation[i] > 1.0f && stepped[i] > options.shortest_step &&
-                previous[i] + d < stepped[i]) {
+            if (relaxes && relaxation[i] > 1.0f && stepped[i] > options.shortest_step && previous[i] + d < stepped[i]) {
                 const float safe = std::max(previous[i], options.shortest_step);
                 rays.travelled[i] -= stepped[i] - safe;
                 stepped[i] = safe;
@@ -91,17 +89,17 @@ void trace(const F& field, RayBatch& rays, const TraceOptions& options) {
             }
             if (meets(i, d)) {
                 rays.hit[i] = true;
-                // Between a place in front of the surface and one behind it, as if the distance were linear.
+                // Interpolate linearly between the points in front of and behind the surface.
                 if (!options.two_sided && d < 0.0f && previous[i] > 0.0f)
                     rays.travelled[i] += stepped[i] * d / (previous[i] - d);
                 continue;
             }
             previous[i] = d;
-            // From behind, interpolated distances are a little too long, and nothing tells a sheet that a
-            // step went through.
+            // Behind a sheet, interpolated distances are slightly too long, and a step through the sheet would not be
+            // detected.
             constexpr float caution = 0.85f;
             stepped[i] = std::max(options.two_sided ? caution * std::fabs(d) : d, options.shortest_step);
-            // A step that would end beyond `far` could not be taken back.
+            // Do not relax a step beyond `far`: it could not be undone.
             if (relaxes && rays.travelled[i] + relaxation[i] * d < options.far)
                 stepped[i] = std::max(relaxation[i] * d, options.shortest_step);
             rays.travelled[i] += stepped[i];

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
-/// The blocks of `smallest` voxels in a block, each with its nodes.
+/// Appends the sub-blocks of side `smallest` that have nodes, each with its nodes.
 void descend(const TriangleTree& tree, BandBlock from, Block block, int smallest, float reach,
              std::vector<BandBlock>& out) {
     if (block.size == smallest) {
@@ -30,11 +30,10 @@ void descend(const TriangleTree& tree, BandBlock from, Block block, int smallest
         }
 }
 
-/// Of a block around all of the band.
+/// The side of a block that contains the whole band.
 int size_around(const TriangleTree& tree, int stride, float reach) {
     float extent = 0.0f;
-    for (std::uint32_t node = tree.top(); node < tree.nodes.size() && tree.nodes[node].radius >= 0.0f;
-         ++node) {
+    for (std::uint32_t node = tree.top(); node < tree.nodes.size() && tree.nodes[node].radius >= 0.0f; ++node) {
         const Bounds& b = tree.nodes[node];
         extent = std::max({extent, b.centre.x + b.radius + b.thickness, b.centre.y + b.radius + b.thickness,
                            b.centre.z + b.radius + b.thickness});
@@ -77,12 +76,11 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
     NearestTriangles nearest;
     for (std::size_t voxel = 0; voxel < brick_volume; ++voxel) {
         const float distance = units * known[voxel];
-        // The side of a sheet is that of the nearest triangle.
-        const bool taken = !normals_ || known[voxel] > sheet_thickness;
-        nearest.distance2[voxel] = taken ? distance * distance : infinite;
+        // The sign of a sheet needs the nearest triangle, so search again where it may be negative.
+        const bool reuse = !normals_ || known[voxel] > sheet_thickness;
+        nearest.distance2[voxel] = reuse ? distance * distance : infinite;
     }
-    nearest_triangles(*tree_, block.nodes, at, {inside.data(), width_.outer * units, width_.inner * units},
-                      nearest);
+    nearest_triangles(*tree_, block.nodes, at, {inside.data(), width_.outer * units, width_.inner * units}, nearest);
 
     BandBrick brick;
     for (std::size_t row = 0; row < brick_rows; ++row) {
@@ -101,7 +99,7 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
     }
     if (normals_)
         for (std::size_t voxel = 0; voxel < brick_volume; ++voxel)
-            if (float& distance = brick.values[voxel]; distance < sheet_thickness) { // none is negative yet
+            if (float& distance = brick.values[voxel]; distance < sheet_thickness) { // all are positive yet
                 const auto i = static_cast<int>(voxel);
                 const Index3 p = stride * (block.low + Index3(i / (brick_size * brick_size),
                                                               i / brick_size % brick_size, i % brick_size));

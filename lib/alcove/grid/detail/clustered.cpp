@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t grain = 1 << 14;
 
-/// Of each vertex, its cube.
+/// The cube of each vertex, as a packed index.
 HugeVector<std::uint64_t> cells_of(std::span<const Vec3d> positions, double cell) {
     HugeVector<std::uint64_t> cells(positions.size());
     parallel_for(positions.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -25,7 +25,7 @@ HugeVector<std::uint64_t> cells_of(std::span<const Vec3d> positions, double cell
     return cells;
 }
 
-/// Calls `visit(triangle, out)` for each, in blocks whose outs are put together in order.
+/// Calls `visit(triangle, out)` for each triangle, in parallel blocks; concatenates the outputs in order.
 template <class Visit>
 void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, const Visit& visit) {
     std::vector<std::vector<Triangle>> blocks((triangles.size() + grain - 1) / grain);
@@ -41,11 +41,11 @@ void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, con
         all.insert(all.end(), block.begin(), block.end());
 }
 
-/// Of the vertices in one cube that hang together there.
+/// The sets of vertices that share a cube and are connected within it.
 DisjointSets clusters_of(const Surface& surface, double cell) {
     const HugeVector<std::uint64_t> cells = cells_of(surface.positions, cell);
     DisjointSets clusters(cells.size());
-    if (!balanced(surface.triangles)) { // else seams would open
+    if (!balanced(surface.triangles)) { // otherwise seams would open
         const std::vector<std::uint32_t> first = weld(surface.positions);
         for (std::uint32_t v = 0; v < first.size(); ++v)
             clusters.join(v, first[v]);
@@ -64,34 +64,36 @@ DisjointSets clusters_of(const Surface& surface, double cell) {
 }
 
 ClusteredSurface::ClusteredSurface(const Surface& surface, double cell) {
-    const std::vector<std::uint32_t> names = merge(surface, cell);
-    const auto renamed = [&](const Triangle& t) { return Triangle{names[t[0]], names[t[1]], names[t[2]]}; };
-    const auto has_sides = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
+    const std::vector<std::uint32_t> cluster_of = merge(surface, cell);
+    const auto renamed = [&](const Triangle& t) {
+        return Triangle{cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]};
+    };
+    const auto is_triangle = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
     collect(surface.triangles, triangles_, [&](const Triangle& t, std::vector<Triangle>& kept) {
-        if (const Triangle now = renamed(t); has_sides(now))
+        if (const Triangle now = renamed(t); is_triangle(now))
             kept.push_back(now);
     });
 
-    // What no triangle is left of is known once all that are left are.
-    std::vector<std::uint8_t> bare(positions_.size(), 1); // new vertices of no triangle
+    // Find the collapsed triangles that no kept triangle covers; this needs all kept triangles.
+    std::vector<std::uint8_t> unused(positions_.size(), 1); // new vertices without a kept triangle
     for (const Triangle& t : triangles_)
         for (const std::uint32_t v : t)
-            bare[v] = 0;
-    const double far2 = 12.0 * cell * cell; // two diagonals of a cube
+            unused[v] = 0;
+    const double far2 = 12.0 * cell * cell; // twice the diagonal of a cube, squared
     const auto far = [&](std::uint32_t a, std::uint32_t b) {
-        const Vec3d way = positions_[a] - positions_[b];
-        return a != b && glm::dot(way, way) > far2;
+        const Vec3d offset = positions_[a] - positions_[b];
+        return a != b && glm::dot(offset, offset) > far2;
     };
-    HugeVector<Triangle> lost;
-    collect(surface.triangles, lost, [&](const Triangle& t, std::vector<Triangle>& kept) {
+    HugeVector<Triangle> uncovered;
+    collect(surface.triangles, uncovered, [&](const Triangle& t, std::vector<Triangle>& kept) {
         const Triangle now = renamed(t);
         const auto& [a, b, c] = now;
-        if (!has_sides(now) && ((bare[a] | bare[b] | bare[c]) != 0 || far(a, b) || far(b, c)))
+        if (!is_triangle(now) && ((unused[a] | unused[b] | unused[c]) != 0 || far(a, b) || far(b, c)))
             kept.push_back(t);
     });
-    positions_.reserve(positions_.size() + 3 * lost.size());
-    triangles_.reserve(triangles_.size() + lost.size());
-    for (const Triangle& t : lost) {
+    positions_.reserve(positions_.size() + 3 * uncovered.size());
+    triangles_.reserve(triangles_.size() + uncovered.size());
+    for (const Triangle& t : uncovered) {
         const auto first = static_cast<std::uint32_t>(positions_.size());
         for (const std::uint32_t v : t)
             positions_.push_back(surface.positions[v]);
@@ -99,27 +101,27 @@ ClusteredSurface::ClusteredSurface(const Surface& surface, double cell) {
     }
 }
 
-/// Returns the new vertex of each.
+/// Returns the index of each vertex's cluster.
 std::vector<std::uint32_t> ClusteredSurface::merge(const Surface& surface, double cell) {
     DisjointSets clusters = clusters_of(surface, cell);
-    std::vector<std::uint32_t> names = huge_vector<std::uint32_t>(surface.positions.size());
+    std::vector<std::uint32_t> cluster_of = huge_vector<std::uint32_t>(surface.positions.size());
     std::vector<double> counts;
-    positions_.reserve(names.size()); // room that is not touched costs nothing
-    for (std::uint32_t v = 0; v < names.size(); ++v) {
+    positions_.reserve(cluster_of.size()); // untouched capacity costs nothing
+    for (std::uint32_t v = 0; v < cluster_of.size(); ++v) {
         const std::uint32_t first = clusters.find(v);
         if (first == v) {
-            names[v] = static_cast<std::uint32_t>(counts.size());
+            cluster_of[v] = static_cast<std::uint32_t>(counts.size());
             positions_.push_back(surface.positions[v]);
             counts.push_back(1.0);
         } else {
-            names[v] = names[first];
-            positions_[names[v]] += surface.positions[v];
-            counts[names[v]] += 1.0;
+            cluster_of[v] = cluster_of[first];
+            positions_[cluster_of[v]] += surface.positions[v];
+            counts[cluster_of[v]] += 1.0;
         }
     }
     for (std::size_t v = 0; v < counts.size(); ++v)
         positions_[v] /= counts[v];
-    return names;
+    return cluster_of;
 }
 
 }

@@ -1,4 +1,4 @@
-/// A dense surface with fewer triangles. Internal to grid/.
+/// Reduces the triangles of a dense surface by vertex clustering.
 #pragma once
 
 #include "alcove/base/detail/memory.h"
@@ -14,16 +14,18 @@ struct Surface {
     std::span<const Triangle> triangles;
 };
 
-/// Makes one vertex of those that lie in one cube of side `cell` and hang together there, by edges or because they coincide,
-/// at their mean, and leaves out triangles of which two corners become one: after J. Rossignac and P. Borrel,
-/// "Multi-resolution 3D approximations for rendering complex scenes" (1993), who do not ask whether they hang together: the
-/// two sides of a thin wall would become one. Of those left out, some stay as they were: where no others meet, in spikes and
-/// in parts smaller than a cube, and where the corners are more than 2√3 cells apart, in struts and wires. No point of the
-/// surface is further than 2√3 cells from what becomes of it, and triangles turn as before. The result does not depend on
-/// the number of threads. Cost: about 20 ns a triangle, and where edges are open 50 ns a vertex.
+/// Vertex clustering (Rossignac and Borrel 1993): merges the vertices in a cube of side `cell` into
+/// their mean and removes the triangles that collapse. Unlike the original, it merges only vertices that are
+/// connected within the cube, by edges or because they coincide; otherwise the two sides of a thin wall would
+/// merge.
+///
+/// Some collapsed triangles are kept unchanged: those whose new vertices belong to no other triangle (spikes, and
+/// parts smaller than a cube), and those whose corners are more than 2√3 cells apart (struts and wires). No point
+/// of the surface moves by more than 2√3 cells, and triangles keep their orientation. The result does not depend on
+/// the number of threads. Cost: about 20 ns per triangle, plus 50 ns per vertex where edges are open.
 class ClusteredSurface {
   public:
-    /// \pre positions from 0 to below 2^21 cells, where they are finite
+    /// \pre finite positions are in [0, 2^21) cells
     ClusteredSurface(const Surface& surface, double cell);
 
     Surface surface() const { return {positions_, triangles_}; }

@@ -1,4 +1,4 @@
-/// Faces that are there twice, once from each side. Internal to grid/.
+/// Removes duplicate (double-sided) faces.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -8,10 +8,9 @@
 
 namespace alcove {
 
-/// The triangles in their order, of those on the same three places, whichever way they turn, only the first: where both sides
-/// of a sheet are modelled, the distances on either side are those to the faces that were named first. Places are the
-/// same where their coordinates are. Cost: about 50 ns a triangle.
-std::vector<Triangle> without_duplicate_faces(std::span<const Vec3d> positions,
-                                              std::span<const Triangle> triangles);
+/// Keeps only the first of the triangles with the same three corner positions, in either orientation, and preserves the
+/// order. Where both sides of a sheet are modelled, the orientation of the first face decides the sign. Positions are
+/// compared exactly. Cost: about 50 ns per triangle.
+std::vector<Triangle> without_duplicate_faces(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
 }

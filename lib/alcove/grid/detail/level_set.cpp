@@ -19,10 +19,8 @@ using openvdb::FloatTree;
 using Leaf = FloatTree::LeafNodeType;
 static_assert(Leaf::DIM == brick_size && Leaf::NodeMaskType::WORD_COUNT == brick_size);
 
-/// The distances of a brick that are those of every second voxel of the finer level, in voxels; infinite where that has
-/// none.
-std::array<float, brick_volume> known_distances(const LevelSet* finer, const Index3& low,
-                                                double value_scale) {
+/// The distances of a brick, in voxels, that every second voxel of the finer level already has; infinite elsewhere.
+std::array<float, brick_volume> known_distances(const LevelSet* finer, const Index3& low, double value_scale) {
     std::array<float, brick_volume> known;
     known.fill(std::numeric_limits<float>::infinity());
     if (!finer)
@@ -37,8 +35,7 @@ std::array<float, brick_volume> known_distances(const LevelSet* finer, const Ind
             continue;
         const float* const values = leaf->buffer().data();
         for (int x = 0; x < half; ++x) {
-            const auto slice =
-                leaf->getValueMask().getWord<openvdb::Index64>(static_cast<openvdb::Index>(2 * x));
+            const auto slice = leaf->getValueMask().getWord<openvdb::Index64>(static_cast<openvdb::Index>(2 * x));
             for (int y = 0; y < half; ++y)
                 for (int z = 0; z < half; ++z)
                     if (const int row = 2 * y * brick_size; slice >> (row + 2 * z) & 1) {
@@ -61,8 +58,7 @@ LevelSet level_set(const Band& band, int stride, double value_scale, const Level
     std::vector<std::size_t> counts(blocks.size());
     parallel_for(blocks.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            const BandBrick brick =
-                band.brick(blocks[b], stride, known_distances(finer, blocks[b].low, value_scale));
+            const BandBrick brick = band.brick(blocks[b], stride, known_distances(finer, blocks[b].low, value_scale));
             counts[b] = brick.count;
             if (brick.count == 0)
                 continue;

@@ -15,48 +15,47 @@
 namespace alcove {
 namespace {
 
-constexpr float least_outer_band = 3.0f, least_inner_band = 2.0f; // voxels
+constexpr float min_outer_band = 3.0f, min_inner_band = 2.0f; // voxels
 
-// Measured peaks of resident memory: of grids and of the bricks of their fields, by voxels of the finest band; of what
-// finds nearest triangles, 130 for solids and 230 for sheets; of what leaves triangles out, 90 where their edges are looked
-// at too.
+// Measured peaks of resident memory. Per voxel of the finest band: the grids and the bricks of their fields. Per
+// voxelized triangle: the search for nearest triangles (130 for solids, 230 for sheets). Per triangle that is
+// clustered: 90 where edges are checked too.
 constexpr double bytes_per_band_voxel = 60.0;
 constexpr double bytes_per_triangle = 240.0;
-constexpr double bytes_to_thin_a_triangle = 100.0;
-constexpr double bytes_per_voxel_of_length = 75.0; // of the pieces that long triangles are cut into
-// Triangles that a surface has for each cell of the grid that it is in, area / voxel², once it is clustered; as measured.
-// Thinning pays where that halves them.
-constexpr double thinned_triangles = 12.0;
-constexpr double worth_thinning = 2.0 * thinned_triangles;
-constexpr double finest_thinned = 1e-5; // the cells of finer ones are more than ClusteredSurface can number
-// All levels together against the finest: 1 + 1/4 + 1/16 + ...
+constexpr double bytes_per_clustered_triangle = 100.0;
+constexpr double bytes_per_voxel_of_length = 75.0; // fragments of long triangles
+// Measured: triangles that remain per voxel² of area after clustering. Clustering pays where it halves the count.
+constexpr double triangles_after_clustering = 12.0;
+constexpr double worth_clustering = 2.0 * triangles_after_clustering;
+constexpr double finest_clustered = 1e-5; // a finer voxel has more cells than ClusteredSurface can number
+// Size of all levels relative to the finest: 1 + 1/4 + 1/16 + ...
 constexpr double levels_over_finest = 4.0 / 3.0;
 constexpr double largest_index = 1 << 20;
-constexpr double coarsest_voxel = 1.0; // none is larger than the diagonal
+constexpr double coarsest_voxel = 1.0; // the diagonal
 
-/// Bytes = fixed + by_length / voxel + by_surface / voxel², where the surface is clustered and where it is not.
+/// Bytes = fixed + by_length / voxel + by_surface / voxel², with different terms if the surface is clustered.
 struct Estimate {
     double area, triangles;
     bool may_cluster;
-    double least, by_surface, by_length;
+    double minimum, by_surface, by_length;
 
     Estimate(const SurfaceSize& size, std::size_t count, const GridOptions& options)
         : area(size.area), triangles(static_cast<double>(count)), may_cluster(options.cluster),
           by_length(bytes_per_voxel_of_length * size.length) {
-        const double band = 2.0 * std::max(options.outer_band, least_outer_band);
-        // A band around a point or a line still fills a ball or a tube: one block of leaves at least.
-        least = levels_over_finest * 4.0 * band * band * band * bytes_per_band_voxel;
+        const double band = 2.0 * std::max(options.outer_band, min_outer_band);
+        // The band around a point or a line is still a ball or a tube: at least one block of leaves.
+        minimum = levels_over_finest * 4.0 * band * band * band * bytes_per_band_voxel;
         by_surface = levels_over_finest * area * band * bytes_per_band_voxel;
     }
     bool clusters(double voxel) const {
-        return may_cluster && voxel > finest_thinned && triangles * voxel * voxel > worth_thinning * area;
+        return may_cluster && voxel > finest_clustered && triangles * voxel * voxel > worth_clustering * area;
     }
     double voxelized(double voxel) const {
-        return clusters(voxel) ? thinned_triangles * area / (voxel * voxel) : triangles;
+        return clusters(voxel) ? triangles_after_clustering * area / (voxel * voxel) : triangles;
     }
     double bytes(double voxel) const {
-        return least + by_surface / (voxel * voxel) + bytes_per_triangle * voxelized(voxel) +
-               (clusters(voxel) ? bytes_to_thin_a_triangle * triangles : by_length / voxel);
+        return minimum + by_surface / (voxel * voxel) + bytes_per_triangle * voxelized(voxel) +
+               (clusters(voxel) ? bytes_per_clustered_triangle * triangles : by_length / voxel);
     }
     double finest(double limit) const {
         if (!(bytes(coarsest_voxel) < limit))
@@ -65,20 +64,20 @@ struct Estimate {
             const double left = limit - fixed, half = 0.5 * by_length_there / left;
             return half + std::sqrt(half * half + by_area / left);
         };
-        const double of_all = least + bytes_per_triangle * triangles;
-        double voxel = solved(of_all, by_length, by_surface);
-        // Below the voxel from which on surfaces are clustered, bytes are more.
-        if (!(of_all < limit) || clusters(voxel))
-            voxel = std::max(std::sqrt(worth_thinning * area / triangles),
-                             solved(least + bytes_to_thin_a_triangle * triangles, 0.0,
-                                    by_surface + bytes_per_triangle * thinned_triangles * area));
+        const double unclustered = minimum + bytes_per_triangle * triangles;
+        double voxel = solved(unclustered, by_length, by_surface);
+        // No voxel that is too fine for clustering fits.
+        if (!(unclustered < limit) || clusters(voxel))
+            voxel = std::max(std::sqrt(worth_clustering * area / triangles),
+                             solved(minimum + bytes_per_clustered_triangle * triangles, 0.0,
+                                    by_surface + bytes_per_triangle * triangles_after_clustering * area));
         return std::max(voxel, 1.0 / largest_index);
     }
 };
 
 std::string too_many(std::size_t triangles, double bytes, const GridOptions& options) {
     return fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
-                       "fewer triangles, or bake by --method exact, which takes no grid",
+                       "fewer triangles, or bake with --method exact, which needs no grid",
                        triangles, bytes / 1e9, options.memory_limit / 1e9);
 }
 
@@ -94,17 +93,15 @@ SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles) 
         for (const Triangle& t : triangles.subspan(begin, end - begin)) {
             const Vec3d& a = mesh.positions[t[0]];
             const Vec3d ab = scale * (mesh.positions[t[1]] - a), ac = scale * (mesh.positions[t[2]] - a);
-            const double longest2 =
-                std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(ac - ab, ac - ab)});
+            const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(ac - ab, ac - ab)});
             sum.area += 0.5 * glm::length(glm::cross(ab, ac));
             sum.length += std::sqrt(longest2);
         }
         sums[begin / grain] = sum;
     });
-    return std::accumulate(sums.begin(), sums.end(), SurfaceSize{},
-                           [](const SurfaceSize& a, const SurfaceSize& b) {
-                               return SurfaceSize{a.area + b.area, a.length + b.length};
-                           });
+    return std::accumulate(sums.begin(), sums.end(), SurfaceSize{}, [](const SurfaceSize& a, const SurfaceSize& b) {
+        return SurfaceSize{a.area + b.area, a.length + b.length};
+    });
 }
 
 float chosen_voxel(float radius, float largest_voxel) {
@@ -125,14 +122,13 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
     if (!std::isfinite(finest))
         throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));
     if (options.voxel > 0.0f && options.voxel < finest)
-        throw LimitError(
-            fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
-                        "of {:.1f} GB: use --voxel {}% or more, or --voxel auto",
-                        100.0 * options.voxel, estimate.bytes(options.voxel) / 1e9,
-                        options.memory_limit / 1e9, std::ceil(1e4 * finest) / 100.0));
+        throw LimitError(fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
+                                     "of {:.1f} GB: use --voxel {}% or more, or --voxel auto",
+                                     100.0 * options.voxel, estimate.bytes(options.voxel) / 1e9,
+                                     options.memory_limit / 1e9, std::ceil(1e4 * finest) / 100.0));
     LevelPlan plan;
-    plan.outer_band = std::max(options.outer_band, least_outer_band);
-    plan.inner_band = std::max(options.inner_band, least_inner_band);
+    plan.outer_band = std::max(options.outer_band, min_outer_band);
+    plan.inner_band = std::max(options.inner_band, min_inner_band);
     plan.voxel = options.voxel > 0.0f ? options.voxel
                                       : std::max(chosen_voxel(options.radius, options.largest_voxel),
                                                  std::nextafter(static_cast<float>(finest), 1.0f));

@@ -25,8 +25,7 @@ Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const T
     parallel_for(triangles_.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Triangle& t = triangles_[i];
-            const Vec3d cross =
-                glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
+            const Vec3d cross = glm::cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
             if (const double length = glm::length(cross); length > 0.0)
                 face_normals_[i] = Vec3(cross / length);
         }
@@ -55,25 +54,24 @@ void Pseudonormals::weight_normals() {
             half_edges.push_back({(std::uint64_t{low} << 32) | high, slot});
         }
     }
-    std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return a.key != b.key ? a.key < b.key : a.slot < b.slot;
-    });
+    std::sort(half_edges.begin(), half_edges.end(),
+              [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.slot < b.slot; });
 
     edge_normals_.assign(3 * triangles_.size(), Vec3(0.0f));
-    std::vector<std::uint32_t> rim;
+    std::vector<std::uint32_t> boundary;
     for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
         Vec3 sum(0.0f);
         for (end = begin; end < half_edges.size() && half_edges[end].key == half_edges[begin].key; ++end)
             sum += face_normals_[half_edges[end].slot / 3];
         if (end == begin + 1) {
             sum = Vec3(0.0f);
-            rim.push_back(static_cast<std::uint32_t>(half_edges[begin].key >> 32));
-            rim.push_back(static_cast<std::uint32_t>(half_edges[begin].key));
+            boundary.push_back(static_cast<std::uint32_t>(half_edges[begin].key >> 32));
+            boundary.push_back(static_cast<std::uint32_t>(half_edges[begin].key));
         }
         for (std::size_t i = begin; i < end; ++i)
             edge_normals_[half_edges[i].slot] = sum;
     }
-    for (const std::uint32_t v : rim)
+    for (const std::uint32_t v : boundary)
         vertex_normals_[v] = Vec3(0.0f);
 }
 

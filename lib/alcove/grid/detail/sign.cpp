@@ -13,23 +13,23 @@
 namespace alcove {
 namespace {
 
-// A part is buried when less than this share of it bounds the solid.
-constexpr double least_bounding = 0.05;
+// A part is buried if less than this share of it bounds the solid.
+constexpr double min_bounding = 0.05;
 
 void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
     if (surface.flipped_edges > 0)
         warnings.push_back(
-            fmt::format("at {} edges the neighbouring faces turn opposite ways: vertices there are lit from "
-                        "whichever side their normals take, make the faces agree first",
+            fmt::format("at {} edges the neighbouring faces have opposite orientations: vertices there are shaded "
+                        "on the side that their normals happen to point to; orient the faces consistently first",
                         surface.flipped_edges));
     if (surface.inverted_components > 0)
         warnings.push_back(
-            fmt::format("{} of {} parts face inward and get the occlusion of their inside: right for the "
-                        "wall of a cavity, else turn their faces over first",
+            fmt::format("{} of {} parts face inward and get the occlusion of their inside: correct for the "
+                        "wall of a cavity, otherwise flip their faces first",
                         surface.inverted_components, surface.components));
 }
 
-/// Whether a connected part of the surface is practically nowhere between inside and outside.
+/// Whether some connected part of the surface almost nowhere separates inside from outside.
 bool buries_a_part(const WindingColumns& columns, std::span<const Vec3d> positions,
                    std::span<const Triangle> triangles) {
     const std::vector<std::uint32_t> joined = weld(positions);
@@ -47,14 +47,14 @@ bool buries_a_part(const WindingColumns& columns, std::span<const Vec3d> positio
         part.bounding += bounding;
     });
     return std::any_of(counts.begin(), counts.end(), [](const Crossings& part) {
-        return static_cast<double>(part.bounding) < least_bounding * static_cast<double>(part.all);
+        return static_cast<double>(part.bounding) < min_bounding * static_cast<double>(part.all);
     });
 }
 
 }
 
 bool balanced(std::span<const Triangle> triangles) {
-    const auto one_way = [](std::uint64_t a, std::uint64_t b) { // the finalizer of MurmurHash3 (Appleby 2011)
+    const auto edge_hash = [](std::uint64_t a, std::uint64_t b) { // finalizer of MurmurHash3 (Appleby 2011)
         std::uint64_t x = a << 32 | b;
         x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
         x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
@@ -66,17 +66,16 @@ bool balanced(std::span<const Triangle> triangles) {
         for (const Triangle& t : triangles.subspan(begin, end - begin))
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-                const std::uint64_t way = one_way(std::min(a, b), std::max(a, b));
-                sum += a < b ? way : a > b ? 0 - way : 0;
+                const std::uint64_t hash = edge_hash(std::min(a, b), std::max(a, b));
+                sum += a < b ? hash : a > b ? 0 - hash : 0;
             }
         total += sum;
     });
     return total == 0;
 }
 
-Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns,
-                 std::span<const Vec3d> positions, std::span<const Triangle> triangles,
-                 std::vector<std::string>& warnings) {
+Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns, std::span<const Vec3d> positions,
+                 std::span<const Triangle> triangles, std::vector<std::string>& warnings) {
     const double leaking = columns.leaking();
     const bool overlapping = columns.overlapping();
     const bool sound = leaking == 0.0 && !overlapping && balanced(triangles);
@@ -87,8 +86,8 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
     if (choice == SignChoice::solid) {
         if (leaking > 0.0)
             warnings.push_back(
-                fmt::format("the mesh is taken for a solid as asked, but {:.1f} % of the lines through it "
-                            "find a hole: use --sign auto",
+                fmt::format("the mesh is treated as a solid as requested, but {:.1f} % of the lines through it "
+                            "pass through a hole: use --sign auto",
                             100.0 * leaking));
         return Sign::solid;
     }

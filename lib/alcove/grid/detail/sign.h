@@ -1,4 +1,4 @@
-/// Decides whether a surface is a solid. Internal to grid/.
+/// Decides whether a surface is a solid.
 #pragma once
 
 #include "alcove/grid/detail/winding.h"
@@ -12,17 +12,16 @@
 
 namespace alcove {
 
-/// Whether each edge is run as often one way as the other, as far as a sum of 64 bits tells. Not so where coincident
-/// vertices are kept apart. Cost: 5 ns a triangle.
+/// Whether the faces traverse each edge equally often in both directions, up to collisions of a 64-bit hash. Compares
+/// indices, so coincident vertices that are not joined make it false. Cost: 5 ns per triangle.
 bool balanced(std::span<const Triangle> triangles);
 
-/// A closed surface is a solid, also where its parts run into each other: inside of any of them is inside.
-/// Not so when a whole part would vanish in the inside of another: shells in shells, and parts inside out,
-/// stay a sheet. The wall of a cavity, turned inward, bounds the solid and is kept. Warns of faces that turn the
-/// wrong way, unless the columns find winding numbers of 0 and 1 alone, and no edge is run more often one way than
-/// the other: 10 ns a triangle for nearly all meshes then, else those of closedness().
-Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns,
-                 std::span<const Vec3d> positions, std::span<const Triangle> triangles,
-                 std::vector<std::string>& warnings);
+/// A closed surface is a solid, even if its parts overlap: the inside is the union of their insides. But it is a
+/// sheet if a whole part would vanish inside another (nested shells, parts turned inside out). An inward-facing
+/// cavity wall bounds the solid and is kept. Adds warnings about faces with the wrong orientation. Cost: 10 ns per
+/// triangle for almost all meshes, those whose winding numbers are only 0 and 1 and whose edges are balanced();
+/// otherwise that of closedness().
+Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns, std::span<const Vec3d> positions,
+                 std::span<const Triangle> triangles, std::vector<std::string>& warnings);
 
 }

@@ -1,5 +1,5 @@
-/// The only door to OpenVDB's headers, which take a quarter of a minute to compile: included by few .cpp
-/// files and by no public header.
+/// The only header that includes OpenVDB, which takes a quarter of a minute to compile: include it in few .cpp files
+/// and in no public header.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
@@ -12,7 +12,7 @@ struct VdbGrid {
     openvdb::FloatGrid::Ptr grid;
 };
 
-/// Every value and the background times a power of two.
+/// Multiplies every value and the background by `factor`; exact if that is a power of two.
 void scale_values(openvdb::FloatGrid& grid, double factor);
 
 }

@@ -30,12 +30,12 @@ std::int64_t left(const Corner& a, const Corner& b, std::int64_t x, std::int64_t
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-/// Of two triangles on either side of an edge, one owns the points on it.
+/// Exactly one of the two triangles at an edge owns the points on it.
 bool owns(const Corner& a, const Corner& b) {
     return b.y > a.y || (b.y == a.y && b.x < a.x);
 }
 
-/// The columns of a row that a triangle may cover: long triangles cover few of those of their box.
+/// The columns of a row that a triangle may cover: far fewer than those of its bounding box if it is long.
 std::pair<std::int64_t, std::int64_t> covered(const Corner (&corners)[3], std::int64_t x, std::int64_t one) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     const auto at = static_cast<double>(x * one);
@@ -56,7 +56,7 @@ std::pair<std::int64_t, std::int64_t> covered(const Corner (&corners)[3], std::i
             static_cast<std::int64_t>(std::floor((most + 1.0) / step))};
 }
 
-/// Calls `visit(x, y, z)` for each column that passes through a triangle turned to the left.
+/// Calls `visit(x, y, z)` for each column through a counterclockwise triangle.
 template <class Visit>
 void for_each_covered(const Corner& p, const Corner& q, const Corner& r, std::int64_t one, Visit&& visit) {
     const auto [x0, x1] = std::minmax({p.x, q.x, r.x});
@@ -65,11 +65,11 @@ void for_each_covered(const Corner& p, const Corner& q, const Corner& r, std::in
         for (std::int64_t y = y0; y <= y1; ++y) {
             const std::int64_t at_p = left(q, r, x * one, y * one), at_q = left(r, p, x * one, y * one),
                                at_r = left(p, q, x * one, y * one);
-            if (at_p < 0 || at_q < 0 || at_r < 0 || (at_p == 0 && !owns(q, r)) ||
-                (at_q == 0 && !owns(r, p)) || (at_r == 0 && !owns(p, q)))
+            if (at_p < 0 || at_q < 0 || at_r < 0 || (at_p == 0 && !owns(q, r)) || (at_q == 0 && !owns(r, p)) ||
+                (at_r == 0 && !owns(p, q)))
                 continue;
-            const double z = static_cast<double>(at_p) * p.z + static_cast<double>(at_q) * q.z +
-                             static_cast<double>(at_r) * r.z;
+            const double z =
+                static_cast<double>(at_p) * p.z + static_cast<double>(at_q) * q.z + static_cast<double>(at_r) * r.z;
             visit(x, y, z / static_cast<double>(at_p + at_q + at_r));
         }
     }
@@ -82,7 +82,7 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
     for (const Vec3d& p : positions)
         if (is_finite(p))
             extent = std::max({extent, p.x, p.y});
-    // Products of two differences, doubled, stay below 2^63.
+    // Twice the product of two differences stays below 2^63.
     const int shift = 29 - std::ilogb(extent);
     const double scale = std::ldexp(1.0, shift);
     const std::int64_t one = std::int64_t{1} << shift;
@@ -95,7 +95,7 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
                         &c = positions[triangles[t][2]];
             // Snapping moves a corner by half a step.
             const double slack = 0.5 / scale;
-            // Casts round down, as none is below 0, and without a call.
+            // A cast rounds down, as no coordinate is negative, and is faster than a call of floor().
             const auto crossed = [&](double p, double q, double r) {
                 const auto last = static_cast<double>(static_cast<std::int64_t>(std::max({p, q, r}) + slack));
                 return last >= std::min({p, q, r}) - slack;
@@ -111,7 +111,7 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
                 continue;
             if (area < 0)
                 std::swap(q, r);
-            // Faces turned down are where the solid begins, going up.
+            // Going up, the solid begins at faces that point down.
             const std::int32_t turn = area < 0 ? 1 : -1;
             for_each_covered(p, q, r, one, [&](std::int64_t x, std::int64_t y, double z) {
                 out.push_back({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), z,
@@ -175,13 +175,13 @@ bool WindingColumns::overlapping() const {
 }
 
 bool WindingColumns::hollow() const {
-    constexpr double same_place = 1e-6; // voxels
+    constexpr double tolerance = 1e-6; // voxels
     bool found = false;
     for_each_column([&](std::span<const Crossing> column) {
         int winding = 0;
         for (std::size_t i = 0; i + 1 < column.size(); ++i) {
             winding += column[i].turn;
-            found = found || (winding > 0 && column[i + 1].z - column[i].z > same_place);
+            found = found || (winding > 0 && column[i + 1].z - column[i].z > tolerance);
         }
     });
     return !found && !crossings_.empty();
@@ -198,10 +198,10 @@ void WindingColumns::for_each_crossing(const std::function<void(std::uint32_t, b
     });
 }
 
-/// The first crossing of the column, or of those behind it: few before it are looked at where it is near.
+/// The first crossing at or after column `y`, by exponential search: cheap if it is near `begin`.
 std::vector<WindingColumns::Crossing>::const_iterator
-WindingColumns::column_from(std::vector<Crossing>::const_iterator begin,
-                            std::vector<Crossing>::const_iterator end, std::uint32_t y) {
+WindingColumns::column_from(std::vector<Crossing>::const_iterator begin, std::vector<Crossing>::const_iterator end,
+                            std::uint32_t y) {
     std::ptrdiff_t step = 4;
     while (step < end - begin && begin[step].y < y) {
         begin += step;

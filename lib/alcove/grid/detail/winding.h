@@ -1,4 +1,4 @@
-/// Inside and outside of a surface at the voxels, by counting: internal to grid/.
+/// Finds the voxels inside a surface by counting crossings.
 #pragma once
 
 #include "alcove/nearest/nearest.h"
@@ -11,33 +11,33 @@
 
 namespace alcove {
 
-/// Where the surface crosses the z-columns through the voxel centres, and so its winding number there: the
-/// crossings below, those from outside to inside less the others.
+/// The crossings of the surface with the z-columns through the voxel centres. They give the winding number of a
+/// voxel: the crossings below it into the solid minus those out of it.
 ///
-/// Corners are snapped to a grid as fine as exact integer arithmetic allows, 2⁻²⁹ of the extent, and a column
-/// through an edge or a corner belongs to one side by rule: the crossings of a closed surface always cancel.
-/// Const use is thread-safe. Cost: about 5 ns a triangle and 50 ns a crossing.
+/// Corners are snapped to the finest grid that exact integer arithmetic allows, 2⁻²⁹ of the extent, and a tie-break
+/// rule assigns a column through an edge or a corner to one triangle: the crossings of a closed surface always
+/// cancel. Const use is thread-safe. Cost: about 5 ns per triangle and 50 ns per crossing.
 class WindingColumns {
   public:
-    /// `positions` in index space, none below 0. All triangles take part, without an area too: they close
-    /// what their neighbours leave.
+    /// `positions` are in index space, none below 0. Pass all triangles, even those without area: they close gaps
+    /// between their neighbours.
     WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
-    /// The share of the columns with crossings in which these do not cancel: 0 for a closed surface.
+    /// The share, among the columns with crossings, of those whose crossings do not cancel: 0 for a closed surface.
     double leaking() const;
 
-    /// Whether the winding number is anything but 0 and 1 somewhere.
+    /// Whether the winding number is other than 0 or 1 anywhere.
     bool overlapping() const;
 
-    /// Whether there are crossings, and nowhere a winding number above 0 between them: faces are there from both sides.
+    /// Whether there are crossings, but no winding number above 0 between them: every face is double-sided.
     bool hollow() const;
 
-    /// Calls `visit(triangle, bounding)` for each crossing; bounding are those between a winding number below
-    /// 1 and one from 1 on.
+    /// Calls `visit(triangle, bounding)` for each crossing. It is bounding if the winding number is below 1 on exactly
+    /// one side.
     void for_each_crossing(const std::function<void(std::uint32_t triangle, bool bounding)>& visit) const;
 
-    /// The voxels of winding number 1 and more of a block of brick_size³, a bit each: one byte a z-row, y
-    /// fastest. In columns that do not cancel, those of which this is so counted from either end.
+    /// The voxels of a brick whose winding number is 1 or more, one bit each: one byte per z-row, y fastest. Where the
+    /// crossings of a column do not cancel, counting from the bottom and from the top must both give 1 or more.
     std::array<std::uint8_t, brick_rows> inside(const Block& brick) const;
 
   private:
@@ -52,8 +52,8 @@ class WindingColumns {
                                                              std::vector<Crossing>::const_iterator end,
                                                              std::uint32_t y);
 
-    std::vector<std::size_t> row_begin_; // of each x in crossings_
-    std::vector<Crossing> crossings_;    // by x, y, z
+    std::vector<std::size_t> row_begin_; // offsets into crossings_, per x
+    std::vector<Crossing> crossings_;    // sorted by x, y, z
 };
 
 }

@@ -21,14 +21,13 @@ std::string marker(std::size_t style, double x, double y) {
     case 0:
         return fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="4.5" fill="{}"/>)", x, y, color);
     case 1:
-        return fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="8" height="8" fill="{}"/>)", x - 4, y - 4,
-                           color);
+        return fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="8" height="8" fill="{}"/>)", x - 4, y - 4, color);
     default:
         return fmt::format(R"(<path d="M{:.1f} {:.1f}l5 9h-10z" fill="{}"/>)", x, y - 5, color);
     }
 }
 
-/// Values to places, the logarithm in between.
+/// Maps values to coordinates, logarithmically.
 class Axis {
   public:
     Axis(double low, double high, double from, double to)
@@ -38,11 +37,9 @@ class Axis {
         high_ += margin;
     }
 
-    double at(double value) const {
-        return from_ + (std::log10(value) - low_) / (high_ - low_) * (to_ - from_);
-    }
+    double at(double value) const { return from_ + (std::log10(value) - low_) / (high_ - low_) * (to_ - from_); }
 
-    /// 1, 2 and 5 times powers of ten; the powers alone over more than two decades.
+    /// 1, 2 and 5 times the powers of ten; only the powers of ten on axes of more than two decades.
     std::vector<double> ticks() const {
         std::vector<double> ticks;
         for (int e = static_cast<int>(std::floor(low_)); e <= high_; ++e)
@@ -61,12 +58,12 @@ class Axis {
 struct Place {
     double x, y, width;
 
-    bool meets(const Place& other) const {
+    bool overlaps(const Place& other) const {
         return x < other.x + other.width && other.x < x + width && std::fabs(y - other.y) < 11.0;
     }
 };
 
-/// Labels where there is room: beside their point, above or below it; left out where there is none.
+/// Places labels next to, above or below their points; omits those without room.
 class Labels {
   public:
     void keep_free(double x, double y) { taken_.push_back({x - 5, y, 10}); }
@@ -74,20 +71,18 @@ class Labels {
     std::string place(double x, double y, const std::string& text) {
         const double length = 6.4 * static_cast<double>(text.size());
         for (const Place& place :
-             {Place{x + 8, y + 4, length}, Place{x - 8 - length, y + 4, length},
-              Place{x - length / 2, y - 9, length}, Place{x - length / 2, y + 17, length},
-              Place{x + 6, y - 8, length}, Place{x + 6, y + 15, length}}) {
-            const bool inside =
-                place.x > left && place.x + length < right && place.y > top + 8 && place.y < bottom;
-            // A label's middle is above its base line.
+             {Place{x + 8, y + 4, length}, Place{x - 8 - length, y + 4, length}, Place{x - length / 2, y - 9, length},
+              Place{x - length / 2, y + 17, length}, Place{x + 6, y - 8, length}, Place{x + 6, y + 15, length}}) {
+            const bool inside = place.x > left && place.x + length < right && place.y > top + 8 && place.y < bottom;
+            // The middle of a label is above its baseline.
             const Place middle{place.x, place.y - 4, length};
             if (!inside ||
-                std::any_of(taken_.begin(), taken_.end(), [&](const Place& t) { return t.meets(middle); }))
+                std::any_of(taken_.begin(), taken_.end(), [&](const Place& t) { return t.overlaps(middle); }))
                 continue;
             taken_.push_back(middle);
             return fmt::format(
-                R"(<text x="{:.1f}" y="{:.1f}" paint-order="stroke" stroke="#fff" stroke-width="3">{}</text>)",
-                place.x, place.y, escaped(text));
+                R"(<text x="{:.1f}" y="{:.1f}" paint-order="stroke" stroke="#fff" stroke-width="3">{}</text>)", place.x,
+                place.y, escaped(text));
         }
         return "";
     }
@@ -106,13 +101,13 @@ std::string frame_of_axes(const Chart& chart, const Axis& x, const Axis& y) {
         text += fmt::format(
             R"(<path d="M{1} {0:.1f}H{2}" stroke="#ddd"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5:.5g}</text>)",
             y.at(tick), left, right, left - 6, y.at(tick) + 4, tick);
-    text += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="none" stroke="#888"/>)", left,
-                        top, right - left, bottom - top);
-    text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle" font-size="13">{}</text>)",
-                        (left + right) / 2, height - 12, escaped(chart.x_title));
-    text += fmt::format(
-        R"(<text transform='translate(18 {}) rotate(-90)' text-anchor="middle" font-size="13">{}</text>)",
-        (top + bottom) / 2, escaped(chart.y_title));
+    text += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="none" stroke="#888"/>)", left, top,
+                        right - left, bottom - top);
+    text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle" font-size="13">{}</text>)", (left + right) / 2,
+                        height - 12, escaped(chart.x_title));
+    text +=
+        fmt::format(R"(<text transform='translate(18 {}) rotate(-90)' text-anchor="middle" font-size="13">{}</text>)",
+                    (top + bottom) / 2, escaped(chart.y_title));
     return text;
 }
 
@@ -162,34 +157,30 @@ std::string svg(const Chart& chart) {
         std::string path;
         for (const auto& [cost, error] : chart.front) {
             const double to_x = x.at(drawn(cost)), to_y = y.at(drawn(error));
-            path += path.empty() ? fmt::format("M{:.1f} {:.1f}", to_x, to_y)
-                                 : fmt::format("H{:.1f}V{:.1f}", to_x, to_y);
+            path +=
+                path.empty() ? fmt::format("M{:.1f} {:.1f}", to_x, to_y) : fmt::format("H{:.1f}V{:.1f}", to_x, to_y);
         }
-        text += fmt::format(
-            R"(<path d="{}H{}" fill="none" stroke="#222" stroke-width="1.5" stroke-dasharray="5 3"/>)", path,
-            right);
+        text += fmt::format(R"(<path d="{}H{}" fill="none" stroke="#222" stroke-width="1.5" stroke-dasharray="5 3"/>)",
+                            path, right);
     }
 
     Labels labels;
     std::string markers, names, legend;
     double line = top + 10;
     const auto add_to_legend = [&](const std::string& sign, const std::string& name) {
-        legend +=
-            fmt::format(R"({}<text x="{}" y="{}">{}</text>)", sign, right + 32, line + 4, escaped(name));
+        legend += fmt::format(R"({}<text x="{}" y="{}">{}</text>)", sign, right + 32, line + 4, escaped(name));
         line += 19;
     };
     if (!chart.front.empty())
-        add_to_legend(
-            fmt::format(R"(<path d="M{} {}h20" stroke="#222" stroke-width="1.5" stroke-dasharray="5 3"/>)",
-                        right + 8, line),
-            "Pareto front");
+        add_to_legend(fmt::format(R"(<path d="M{} {}h20" stroke="#222" stroke-width="1.5" stroke-dasharray="5 3"/>)",
+                                  right + 8, line),
+                      "Pareto front");
     for (const ChartSeries& series : chart.series) {
         std::string path;
         for (const ChartPoint& point : series.points) {
             const double at_x = x.at(drawn(point.x)), at_y = y.at(drawn(point.y));
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", at_x, at_y);
-            markers += fmt::format("<g>{}<title>{}</title></g>", marker(series.style, at_x, at_y),
-                                   escaped(point.note));
+            markers += fmt::format("<g>{}<title>{}</title></g>", marker(series.style, at_x, at_y), escaped(point.note));
             labels.keep_free(at_x, at_y);
         }
         if (series.joined && series.points.size() > 1)

@@ -1,4 +1,4 @@
-/// A field that counts the points it is asked.
+/// A field that counts its map() calls.
 #pragma once
 
 #include "alcove/field/level_stack.h"
@@ -8,7 +8,7 @@
 
 namespace alcove {
 
-/// Copies share the count.
+/// Copies share the count. Thread-safe.
 class CountingField {
   public:
     explicit CountingField(const LevelStack& field) : field_(field) {}

@@ -11,15 +11,13 @@ namespace {
 
 constexpr ImageSize size{320, 240};
 
-/// S. Josefsson, RFC 4648 (2006).
+/// Base64 encoding (Josefsson 2006).
 std::string base64(std::string_view bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0u;
-        };
+        const auto byte = [&](std::size_t k) { return k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0u; };
         const unsigned group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
         for (unsigned k = 0; k < 4; ++k)
             text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
@@ -27,7 +25,7 @@ std::string base64(std::string_view bytes) {
     return text;
 }
 
-/// Linear light.
+/// The colour of t in [0, 1], in linear light.
 Vec3 heat(float t) {
     static constexpr std::array stops{Vec3(0.85f), Vec3(0.95f, 0.55f, 0.10f), Vec3(0.55f, 0.03f, 0.02f),
                                       Vec3(0.02f, 0.0f, 0.01f)};
@@ -49,10 +47,10 @@ std::string heat_map(const Mesh& mesh, std::span<const Triangle> triangles, std:
     Image image = paint(mesh.positions, triangles, sizes, camera);
     for (std::size_t i = 0; i < image.pixels(); ++i)
         if (image.alpha[i] > 0.0f) {
-            // Faces that turn away are darker: the shape stays readable.
+            // Shades faces that turn away, to keep the shape readable.
             const float facing = std::fabs(glm::dot(image.normal[i], Vec3(camera.forward())));
-            image.color[i] = image.alpha[i] * (0.5f + 0.5f * facing) *
-                             heat(image.ao[i] / image.alpha[i] / largest_drawn_error);
+            image.color[i] =
+                image.alpha[i] * (0.5f + 0.5f * facing) * heat(image.ao[i] / image.alpha[i] / largest_drawn_error);
         }
     return "data:image/png;base64," + base64(encode_png(image, Pass::beauty));
 }

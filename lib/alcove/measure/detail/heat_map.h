@@ -1,4 +1,4 @@
-/// A picture of errors on a mesh.
+/// Renders errors on a mesh as an image.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -8,11 +8,11 @@
 
 namespace alcove {
 
-/// The error that is drawn darkest.
+/// Errors of this size and above are black.
 inline constexpr float largest_drawn_error = 0.25f;
 
-/// |error| of every vertex on the triangles, from white (none) over orange and red to black, seen as make_camera()
-/// does by itself; a PNG of 320 × 240 as a data URI (L. Masinter, RFC 2397, 1998).
+/// The absolute error of every vertex, from white (0) through orange and red to black, in the default view of
+/// make_camera(). A PNG of 320 × 240 pixels as a data URI (Masinter 1998).
 std::string heat_map(const Mesh& mesh, std::span<const Triangle> triangles, std::span<const float> errors);
 
 }

@@ -1,4 +1,4 @@
-/// Which of several choices are worth their cost.
+/// Pareto front of cost and error.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ struct CostAndError {
     double cost = 0.0, error = 0.0;
 };
 
-/// The indices of the choices that no other beats, cheapest first: every cheaper or as cheap one has a larger
-/// error. Of equal ones the first. V. Pareto, "Manuale di economia politica" (1906). Cost: n log n.
+/// The indices of the Pareto-optimal choices, cheapest first: every other choice that is not more expensive has a
+/// larger error. Of equal choices, only the first (Pareto 1906). Cost: n log n.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> choices);
 
 }

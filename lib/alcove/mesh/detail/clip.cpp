@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
 
-/// Where the edge meets the plane {p[axis] = at}: from the same end whichever way the edge runs.
+/// The intersection of an edge with the plane {p[axis] = at}, independent of the direction of the edge.
 Vec3d cut(Vec3d a, Vec3d b, int axis, double at) {
     if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z))
         std::swap(a, b);
@@ -17,7 +17,7 @@ Vec3d cut(Vec3d a, Vec3d b, int axis, double at) {
     return p;
 }
 
-/// What of a convex polygon lies on one side of the plane {p[axis] = at}.
+/// The part of a convex polygon on one side of the plane {p[axis] = at}.
 std::vector<Vec3d> clip_side(const std::vector<Vec3d>& polygon, int axis, double at, bool above) {
     const auto inside = [&](const Vec3d& p) { return above ? p[axis] >= at : p[axis] <= at; };
     std::vector<Vec3d> kept;
@@ -35,7 +35,7 @@ std::vector<Vec3d> clip_side(const std::vector<Vec3d>& polygon, int axis, double
 
 Mesh clip(const Mesh& mesh, std::span<const Triangle> triangles, const Box& box) {
     Mesh result;
-    std::vector<std::uint32_t> place(mesh.vertex_count(), unused), corners;
+    std::vector<std::uint32_t> new_index(mesh.vertex_count(), unused), corners;
     std::vector<Vec3d> polygon;
     for (const Triangle& t : triangles) {
         Box around;
@@ -44,14 +44,13 @@ Mesh clip(const Mesh& mesh, std::span<const Triangle> triangles, const Box& box)
         if (glm::any(glm::greaterThan(around.min, box.max)) || glm::any(glm::lessThan(around.max, box.min)))
             continue;
         corners.clear();
-        if (glm::all(glm::greaterThanEqual(around.min, box.min)) &&
-            glm::all(glm::lessThanEqual(around.max, box.max))) {
+        if (glm::all(glm::greaterThanEqual(around.min, box.min)) && glm::all(glm::lessThanEqual(around.max, box.max))) {
             for (const std::uint32_t v : t) {
-                if (place[v] == unused) {
-                    place[v] = static_cast<std::uint32_t>(result.vertex_count());
+                if (new_index[v] == unused) {
+                    new_index[v] = static_cast<std::uint32_t>(result.vertex_count());
                     result.positions.push_back(mesh.positions[v]);
                 }
-                corners.push_back(place[v]);
+                corners.push_back(new_index[v]);
             }
         } else {
             polygon.assign({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});

@@ -1,13 +1,13 @@
-/// Cuts away what of a mesh lies outside a box.
+/// Clips a mesh to a box.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
 
 namespace alcove {
 
-/// The triangles within the box, those across its sides cut there: I. E. Sutherland, G. W. Hodgman, "Reentrant
-/// polygon clipping" (1974). Neighbours stay neighbours: both cut a common edge at the same point. Positions
-/// and faces only; a mesh that is cut is open there. Cost: linear.
+/// The parts of the triangles within the box, by polygon clipping (Sutherland and Hodgman 1974).
+/// Neighbours cut a common edge at the same point, so they remain neighbours. The result has only positions and
+/// faces, and is open where it was cut. Cost: linear.
 Mesh clip(const Mesh& mesh, std::span<const Triangle> triangles, const Box& box);
 
 }

@@ -17,8 +17,8 @@ SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined) 
     const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto face = mesh.face(f);
-        if (!all_finite && !std::all_of(face.begin(), face.end(),
-                                        [&](std::uint32_t v) { return is_finite(mesh.positions[v]); }))
+        if (!all_finite &&
+            !std::all_of(face.begin(), face.end(), [&](std::uint32_t v) { return is_finite(mesh.positions[v]); }))
             continue;
         const std::size_t begin = sound.begin.back();
         for (const std::uint32_t v : face)
@@ -39,8 +39,7 @@ SoundFaces sound_faces(const Mesh& mesh, std::span<const std::uint32_t> joined) 
 }
 
 EdgeTable::EdgeTable(const SoundFaces& faces, std::size_t vertex_count)
-    : begin_(huge_vector<std::uint32_t>(vertex_count + 1)),
-      uses_(huge_vector<EdgeUse>(faces.corners.size())) {
+    : begin_(huge_vector<std::uint32_t>(vertex_count + 1)), uses_(huge_vector<EdgeUse>(faces.corners.size())) {
     const auto for_each_side = [&](auto&& visit) {
         for (std::size_t f = 0; f < faces.count(); ++f) {
             std::uint32_t from = faces.begin[f + 1] - 1;
@@ -49,7 +48,7 @@ EdgeTable::EdgeTable(const SoundFaces& faces, std::size_t vertex_count)
         }
     };
     for_each_side([&](std::uint32_t, std::uint32_t a, std::uint32_t b) { ++begin_[std::min(a, b)]; });
-    // Counted up to the end of each vertex and filled backwards, the offsets end at its begin.
+    // The offsets are first the ends of the vertices; filling backwards turns them into the starts.
     std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
     for_each_side([&](std::uint32_t corner, std::uint32_t a, std::uint32_t b) {
         uses_[--begin_[std::min(a, b)]] = {std::max(a, b), corner & (UINT32_MAX >> 1), a < b};

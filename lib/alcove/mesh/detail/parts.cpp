@@ -33,7 +33,7 @@ std::vector<std::vector<std::uint32_t>> components_of(const Mesh& mesh, const So
 std::vector<MeshPart> split_parts(const Mesh& mesh) {
     const SoundFaces faces = sound_faces(mesh, weld(mesh.positions));
     std::vector<MeshPart> parts;
-    std::vector<std::uint32_t> place(mesh.vertex_count()), corners;
+    std::vector<std::uint32_t> new_index(mesh.vertex_count()), corners;
     for (const std::vector<std::uint32_t>& component : components_of(mesh, faces)) {
         MeshPart& part = parts.emplace_back();
         for (const std::uint32_t f : component) {
@@ -44,7 +44,7 @@ std::vector<MeshPart> split_parts(const Mesh& mesh) {
         part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
         for (std::uint32_t i = 0; i < part.vertices.size(); ++i) {
             const std::uint32_t v = part.vertices[i];
-            place[v] = i;
+            new_index[v] = i;
             part.mesh.positions.push_back(mesh.positions[v]);
             if (!mesh.normals.empty())
                 part.mesh.normals.push_back(mesh.normals[v]);
@@ -52,8 +52,7 @@ std::vector<MeshPart> split_parts(const Mesh& mesh) {
         for (const std::uint32_t f : component) {
             const auto face = mesh.face(faces.source[f]);
             corners.resize(face.size());
-            std::transform(face.begin(), face.end(), corners.begin(),
-                           [&](std::uint32_t v) { return place[v]; });
+            std::transform(face.begin(), face.end(), corners.begin(), [&](std::uint32_t v) { return new_index[v]; });
             part.mesh.add_face(corners);
         }
     }

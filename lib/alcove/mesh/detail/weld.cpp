@@ -8,7 +8,7 @@
 namespace alcove {
 namespace {
 
-std::uint64_t mix(std::uint64_t x) { // the finalizer of MurmurHash3 (Appleby 2011)
+std::uint64_t mix(std::uint64_t x) { // finalizer of MurmurHash3 (Appleby 2011)
     x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
     x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
     return x ^ (x >> 33);
@@ -20,7 +20,7 @@ std::uint64_t hash(const Vec3d& p) {
     return mix(bits(p.x) + mix(bits(p.y) + mix(bits(p.z) + 1)));
 }
 
-/// Half a hash beside the vertex spares most visits to the positions.
+/// Stores half of the hash to avoid most comparisons of positions.
 struct Slot {
     std::uint32_t hash = 0;
     std::uint32_t vertex = UINT32_MAX;

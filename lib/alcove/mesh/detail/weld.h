@@ -1,4 +1,4 @@
-/// Finds the vertices that lie at the same place, which files keep apart for seams of texture or normals.
+/// Finds coincident vertices, which files duplicate at seams of textures or normals.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -8,10 +8,9 @@
 
 namespace alcove {
 
-/// For each vertex the first one with exactly the same coordinates, itself if there is none before it.
+/// For each vertex, the first one with exactly the same coordinates, which may be itself.
 ///
-/// −0 equals 0; a vertex with a coordinate that is not a number equals none. Cost: linear, about 50 ns a
-/// vertex.
+/// −0 equals 0; a vertex with a NaN coordinate equals no other. Cost: linear, about 50 ns per vertex.
 std::vector<std::uint32_t> weld(std::span<const Vec3d> positions);
 
 }

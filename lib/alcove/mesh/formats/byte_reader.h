@@ -1,4 +1,4 @@
-/// Values out of a binary file held in memory; every read is checked against the bytes left.
+/// Reads values from a binary file in memory; checks every read against the bytes left.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"

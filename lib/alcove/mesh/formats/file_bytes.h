@@ -1,4 +1,4 @@
-/// A whole file in memory, and the errors that name a place in it.
+/// A whole file in memory, and errors that refer to positions in it.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@ namespace alcove {
 
 class FileBytes {
   public:
-    /// Reads everything at once; regular files and pipes. \throw InputError for a folder, a device or an
+    /// Reads a whole regular file or pipe. \throw InputError for a folder, a device or an
     /// empty file, IoError if the file cannot be read.
     explicit FileBytes(const std::filesystem::path& file);
-    /// Takes the bytes as if they had been read from `file`.
+    /// Uses `bytes` as if they had been read from `file`.
     FileBytes(const std::filesystem::path& file, std::string_view bytes);
 
     const std::filesystem::path& path() const { return path_; }
@@ -22,7 +22,7 @@ class FileBytes {
     const char* end() const { return bytes_.get() + size_; } ///< a readable zero byte follows the last one
     std::size_t size() const { return size_; }
     std::string_view view() const { return {begin(), size_}; }
-    /// The bytes live at least as long as this, and longer where what it returns does.
+    /// The bytes live at least as long as the returned pointer.
     std::shared_ptr<const void> keeper() const { return bytes_; }
 
     /// \throw InputError "file: message", in one line.

@@ -1,17 +1,18 @@
-/// One reader and one writer a format, behind read_mesh() and write_mesh().
+/// The readers and writers of the formats, which read_mesh() and write_mesh() call.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
 #include "alcove/mesh/mesh.h"
-#include "alcove/mesh/write.h"
+
+#include <filesystem>
 
 namespace alcove {
 
 /// read_mesh() of a file in memory.
 Mesh read_bytes(const FileBytes& file);
 
-// Each throws InputError for damage. A mesh without faces is left to read_bytes() to refuse where no line of
-// the file says that there are none.
+// Each throws InputError for damage. If no line of the file says that there are no faces, read_bytes() refuses the
+// mesh.
 Mesh read_ply(const FileBytes& file);
 Mesh read_obj(const FileBytes& file);
 Mesh read_off(const FileBytes& file);
@@ -22,19 +23,17 @@ bool begins_as_obj(const FileBytes& file);
 bool begins_as_off(const FileBytes& file);
 bool begins_as_stl(const FileBytes& file);
 
-// Each returns what the format could not hold, one line each, and throws IoError.
-std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file,
-                                   const WriteOptions& options);
-std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file,
-                                   const WriteOptions& options);
+// Each returns what the format could not store, one message each, and throws IoError.
+std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file);
+std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file);
 
-/// \throw InputError for a file of `count` points and no faces, naming the line at `place` that says so.
+/// \throw InputError for a file of `count` points and no faces, with the line at `place` that says so.
 [[noreturn]] void fail_without_faces(const FileBytes& file, const char* place, std::size_t count);
 
-/// Ends the face whose corners were pushed since the last call. \throw LimitError beyond 2^32 corners.
+/// Ends the face whose corners were added since the last call. \throw LimitError beyond 2^32 corners.
 void close_face(Mesh& mesh);
 
-/// A colour component that runs to 255 as a byte; 0 if it is not a number.
+/// Converts a colour component that ranges to 255 to a byte; 0 if it is not a number.
 std::uint8_t color_byte(double value);
 
 }

@@ -1,4 +1,4 @@
-/// Numbers and words out of a text held in memory, fast and strict: every failure names the line.
+/// Scans numbers and words from a text in memory. Fast and strict; errors contain the line.
 #pragma once
 
 #include "alcove/base/detail/messages.h"
@@ -12,13 +12,13 @@
 namespace alcove {
 
 struct TextSyntax {
-    char comment = '\0';       ///< it and the rest of its line count as a line end
+    char comment = '\0';       ///< it and the rest of its line count as the line end
     bool continuation = false; ///< a backslash at the end of a line joins the next one to it
 };
 inline constexpr TextSyntax off_syntax{'#', false};
 inline constexpr TextSyntax obj_syntax{'#', true};
 
-/// Walks a text from token to token. Tokens are separated by blanks and line ends (LF, CRLF, CR).
+/// Reads a text token by token. Tokens are separated by blanks and line ends (LF, CRLF, CR).
 class TextScanner {
   public:
     TextScanner(const FileBytes& file, const char* begin, TextSyntax syntax = {})
@@ -35,7 +35,7 @@ class TextScanner {
             at_ += is_blank(*at_) ? 1 : continuation_length(at_);
         return at_ == end_ || is_line_end(*at_) || is_comment(*at_);
     }
-    /// Moves behind the end of this line.
+    /// Moves past the end of this line.
     void next_line() {
         bool in_comment = false;
         for (; at_ < end_ && !is_line_end(*at_); ++at_) {
@@ -58,7 +58,7 @@ class TextScanner {
         }
         return false;
     }
-    /// The token here, without moving; empty at a line end.
+    /// The token at this position, without moving; empty at a line end.
     std::string_view peek() {
         if (at_line_end())
             return {};
@@ -67,7 +67,7 @@ class TextScanner {
             ++last;
         return {at_, static_cast<std::size_t>(last - at_)};
     }
-    /// The tokens from here to the end of the line, at most `limit`, without moving.
+    /// The number of tokens to the end of the line, at most `limit`, without moving.
     std::size_t tokens_on_line(std::size_t limit) {
         TextScanner ahead(*this);
         std::size_t count = 0;
@@ -84,7 +84,7 @@ class TextScanner {
         at_ += token.size();
         return token;
     }
-    /// The next token as a number; 'nan' and 'inf' are numbers. \throw InputError if it is none.
+    /// The next token as a number; 'nan' and 'inf' are numbers. \throw InputError if it is not one.
     template <class Real = double>
     Real number(const char* expected) {
         if (at_end())
@@ -97,7 +97,7 @@ class TextScanner {
         at_ = last;
         return value;
     }
-    /// The next token as a whole number. \throw InputError if it is none or has more than 18 digits.
+    /// The next token as an integer. \throw InputError if it is not one or has more than 18 digits.
     std::int64_t integer(const char* expected) {
         if (at_end())
             fail_early(expected);
@@ -118,8 +118,8 @@ class TextScanner {
 
     [[noreturn]] void fail(std::string_view message) const { file_.fail_at_line(at_, message); }
     [[noreturn]] void fail_early(const char* expected) const {
-        file_.fail_at_line(end_, std::string("the file ends early: ") + expected +
-                                     " is missing; copy or export it again");
+        file_.fail_at_line(end_,
+                           std::string("the file ends early: ") + expected + " is missing; copy or export it again");
     }
 
   private:
@@ -131,9 +131,7 @@ class TextScanner {
     bool is_continuation(const char* at) const {
         return *at == '\\' && syntax_.continuation && at + 1 < end_ && is_line_end(at[1]);
     }
-    static std::ptrdiff_t continuation_length(const char* at) {
-        return at[1] == '\r' && at[2] == '\n' ? 3 : 2;
-    }
+    static std::ptrdiff_t continuation_length(const char* at) { return at[1] == '\r' && at[2] == '\n' ? 3 : 2; }
     bool is_delimiter(const char* at) const {
         return is_blank(*at) || is_line_end(*at) || is_comment(*at) || is_continuation(at);
     }

@@ -11,7 +11,7 @@ namespace alcove {
 namespace {
 
 constexpr std::size_t grain = 4096;          // triangles
-constexpr double most_cells = (1 << 10) - 1; // along an axis: three times 10 bits are a key
+constexpr double most_cells = (1 << 10) - 1; // along an axis: a key has 3 × 10 bits
 
 double length2(const Vec3d& v) {
     return glm::dot(v, v);
@@ -21,19 +21,19 @@ double longest2(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     return std::max({length2(b - a), length2(c - b), length2(a - c)});
 }
 
-/// Triangles that are no higher than this above their longest side are sliced across it, others halved.
+/// Triangles up to this height above their longest side are sliced across it, others are halved.
 constexpr double highest_slice = 0.7 * longest_fragment;
 
-/// Calls `visit(corners)` for each fragment of a triangle whose longest side is bc, that far below a. Halving would make as
-/// many of a needle as the power 1.6 of its length.
+/// Calls `visit(corners)` for each fragment of a triangle whose longest side is bc, `height` below a. Halving would
+/// cut a needle into a number of fragments that grows with its length to the power of 1.6.
 template <class Visit>
 void slice(const Vec3d& a, const Vec3d& b, const Vec3d& c, double height, Visit&& visit) {
     const double side2 = length2(c - b), foot = glm::dot(a - b, c - b) / side2;
     const auto above = [&](double t) {
         return t < foot ? b + t / foot * (a - b) : a + (t - foot) / (1.0 - foot) * (c - a);
     };
-    const auto count = static_cast<int>(
-        std::ceil(std::sqrt(side2 / (longest_fragment * longest_fragment - height * height))));
+    const auto count =
+        static_cast<int>(std::ceil(std::sqrt(side2 / (longest_fragment * longest_fragment - height * height))));
     Vec3d low = b, high = b;
     const auto add = [&](const Vec3d& next_low, const Vec3d& next_high) {
         visit(low, next_low, next_high);
@@ -73,10 +73,9 @@ bool has_area(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 }
 
 Fragment fragment_of(const Vec3d& a, const Vec3d& b, const Vec3d& c, std::size_t triangle) {
-    const Index3 voxel(a); // rounded down, as none is below 0
+    const Index3 voxel(a); // rounds down, as no coordinate is negative
     const Vec3d origin(voxel);
-    return {
-        voxel, {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)}, static_cast<std::uint32_t>(triangle)};
+    return {voxel, {Vec3(a - origin), Vec3(b - origin), Vec3(c - origin)}, static_cast<std::uint32_t>(triangle)};
 }
 
 }
@@ -89,10 +88,10 @@ FragmentLeaves::FragmentLeaves(std::span<const Vec3d> positions, std::span<const
             extent = std::max({extent, p.x, p.y, p.z});
     const double scale = std::min(most_cells_per_voxel, most_cells / extent);
 
-    // Most triangles are one fragment, which is made when it is asked for; those of the others are kept.
+    // Most triangles are one fragment, computed on request; only the fragments of cut triangles are stored.
     struct Cut {
         std::vector<FragmentKey> whole; // by triangle
-        std::vector<FragmentKey> parts; // by index below
+        std::vector<FragmentKey> parts; // by index into fragments
         std::vector<Fragment> fragments;
     };
     std::vector<Cut> blocks((triangles.size() + grain - 1) / grain);
@@ -126,16 +125,15 @@ FragmentLeaves::FragmentLeaves(std::span<const Vec3d> positions, std::span<const
     for (const Cut& block : blocks) {
         order_.insert(order_.end(), block.whole.begin(), block.whole.end());
         for (const FragmentKey& part : block.parts)
-            order_.push_back(
-                {part.key, static_cast<std::uint32_t>(triangles.size() + parts_.size() + part.value)});
+            order_.push_back({part.key, static_cast<std::uint32_t>(triangles.size() + parts_.size() + part.value)});
         parts_.insert(parts_.end(), block.fragments.begin(), block.fragments.end());
     }
     radix_sort(order_, 0, 3 * (std::ilogb(scale * extent) + 1));
     begin_ = group_fragments(order_, scale);
 }
 
-void FragmentLeaves::expect(std::size_t i) const {
-    constexpr std::size_t ahead = 32; // of the triangle; its corners half as much
+void FragmentLeaves::prefetch(std::size_t i) const {
+    constexpr std::size_t ahead = 32; // for the triangle; half as much for its corners
     if (i + ahead >= order_.size())
         return;
     if (const std::uint32_t later = order_[i + ahead].value; later < triangles_.size())

@@ -1,5 +1,4 @@
-/// The triangles of a surface cut to a few voxels, in groups of neighbours.
-/// Internal to grid/.
+/// Cuts the triangles of a surface into fragments of a few voxels and collects neighbours in leaves.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -14,39 +13,40 @@ namespace alcove {
 
 using Index3 = glm::i32vec3; ///< a voxel
 
-/// A triangle, or a part of one, no longer than a few voxels: near its origin, so floats hold it to 1e-6
-/// voxels wherever in the grid it is.
+/// A triangle, or a part of one, at most a few voxels long. It is stored relative to a nearby origin, so floats are
+/// accurate to 1e-6 voxels anywhere in the grid.
 struct Fragment {
-    Index3 origin;          ///< the voxel that corner 0 lies in
-    Vec3 corners[3];        ///< from the origin
-    std::uint32_t triangle; ///< the one it is of
+    Index3 origin;          ///< the voxel of corner 0
+    Vec3 corners[3];        ///< relative to the origin
+    std::uint32_t triangle; ///< the triangle that it is a part of
 };
 
-/// Longest side of a fragment, voxels. Longer triangles are cut across their longest sides, so that what a
-/// voxel has to look at does not grow with the size of triangles: into half as many fragments as they are voxels long, and a
-/// sixth as many as their area has.
+/// Longest side of a fragment, voxels. Longer triangles are cut across their longest side, so that the search per
+/// voxel does not grow with the size of triangles. The fragments number about half the length of the triangle in
+/// voxels plus a sixth of its area in voxels².
 inline constexpr double longest_fragment = 4.0;
 
-/// All fragments of a surface, in groups that lie along a Morton curve. Triangles without an area are left out: their edges
-/// belong to their neighbours. The result does not depend on the number of threads. Const use is thread-safe. Cost:
-/// linear, about 60 ns a fragment, 20 more to ask for it.
+/// All fragments of a surface, in leaves along a Morton curve (Morton 1966). Triangles without area are
+/// left out, as their edges belong to their neighbours. The result does not depend on the number of threads. Const
+/// use is thread-safe. Cost: linear, about 60 ns per fragment, plus 20 ns for each call of fragment().
 class FragmentLeaves {
   public:
-    /// `positions` are in index space, none below 0, and finite where a triangle names them; they and the triangles must outlive this.
+    /// `positions` are in index space, none below 0, and finite where a triangle refers to them. They and the triangles
+    /// must outlive this object.
     FragmentLeaves(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
-    std::size_t count() const { return begin_.size() - 1; } ///< of groups
-    std::size_t begin(std::size_t group) const { return begin_[group]; }
-    Fragment fragment(std::size_t i) const; ///< from begin() of its group to that of the next
-    /// Fetches what later fragments are made of, which lies all over memory: to be called with one after the other.
-    void expect(std::size_t i) const;
+    std::size_t count() const { return begin_.size() - 1; } ///< number of leaves
+    std::size_t begin(std::size_t leaf) const { return begin_[leaf]; }
+    Fragment fragment(std::size_t i) const; ///< those of a leaf are from begin(leaf) to begin(leaf + 1)
+    /// Prefetches the data of later fragments, which is scattered in memory. Call with consecutive `i`.
+    void prefetch(std::size_t i) const;
 
   private:
     std::span<const Vec3d> positions_;
     std::span<const Triangle> triangles_;
-    HugeVector<FragmentKey> order_;   // by triangle, or index in parts_ beyond the triangles
-    std::vector<Fragment> parts_;     // of triangles that were cut
-    HugeVector<std::uint32_t> begin_; // groups + 1 offsets into order_
+    HugeVector<FragmentKey> order_;   // value: a triangle, or triangles_.size() + index into parts_
+    std::vector<Fragment> parts_;     // fragments of triangles that were cut
+    HugeVector<std::uint32_t> begin_; // leaves + 1 offsets into order_
 };
 
 }

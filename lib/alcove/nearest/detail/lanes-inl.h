@@ -1,6 +1,6 @@
-/// Vectors of eight floats and points, whatever the machine's vectors hold. Internal to grid/.
+/// Operations on eight floats or points, in as many SIMD vectors as the machine needs.
 ///
-/// Included once a target of Highway, hence no include guard of the usual kind.
+/// Included once per Highway target, hence the unusual include guard.
 
 #if defined(ALCOVE_GRID_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALCOVE_GRID_LANES_INL_H
@@ -25,7 +25,7 @@ using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 constexpr D d;
 constexpr hn::RebindToUnsigned<D> du;
-constexpr int lanes = static_cast<int>(hn::MaxLanes(d)); // all of these vectors have a fixed size
+constexpr int lanes = static_cast<int>(hn::MaxLanes(d)); // 8, or fewer on machines with smaller vectors
 
 struct Vec3v {
     V x, y, z;
@@ -66,16 +66,15 @@ HWY_INLINE Vec3v times(V s, const Vec3v& v) {
 }
 
 /// a − s b
-HWY_INLINE Vec3v less(const Vec3v& a, V s, const Vec3v& b) {
+HWY_INLINE Vec3v minus_scaled(const Vec3v& a, V s, const Vec3v& b) {
     return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
 }
 
 HWY_INLINE Vec3v choose(M mask, const Vec3v& yes, const Vec3v& no) {
-    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-            hn::IfThenElse(mask, yes.z, no.z)};
+    return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-HWY_INLINE V sum_of_sizes(const Vec3v& v) {
+HWY_INLINE V sum_of_abs(const Vec3v& v) {
     return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
@@ -89,8 +88,8 @@ HWY_INLINE std::uint32_t bits_of(M mask) {
     return bytes[0];
 }
 
-/// Where the least of eight is.
-HWY_INLINE int least_of_eight(const float (&v)[eight]) {
+/// The index of the smallest of eight.
+HWY_INLINE int argmin_of_eight(const float (&v)[eight]) {
     V least = hn::Load(d, v);
     for (int lane = lanes; lane < eight; lane += lanes)
         least = hn::Min(least, hn::Load(d, v + lane));

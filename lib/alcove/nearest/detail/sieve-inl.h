@@ -1,6 +1,6 @@
-/// Who of eight wants what. Internal to grid/.
+/// Selects tree nodes for each of eight octants or voxels.
 ///
-/// Included once a target of Highway, hence no include guard of the usual kind.
+/// Included once per Highway target, hence the unusual include guard.
 
 #if defined(ALCOVE_GRID_SIEVE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef ALCOVE_GRID_SIEVE_INL_H
@@ -23,45 +23,45 @@ HWY_BEFORE_NAMESPACE();
 namespace alcove {
 namespace HWY_NAMESPACE {
 
-// Kept and shared out without branches that depend on what is wanted: no machine predicts these.
+// Selection and distribution avoid branches on the data, which would be mispredicted.
 
-/// What is wanted by some of eight.
-class Shares {
+/// Nodes, each with a mask of the octants (or voxels) that need it.
+class MaskedNodes {
   public:
     void clear() { count_ = 0; }
-    /// For this many calls of add() at least.
+    /// Makes room for `more` calls of add().
     void make_room(std::size_t more) {
-        if (what_.size() < count_ + more + eight) {
-            what_.resize(2 * (count_ + more) + eight);
-            wanting_.resize(what_.size());
+        if (nodes_.size() < count_ + more + eight) {
+            nodes_.resize(2 * (count_ + more) + eight);
+            masks_.resize(nodes_.size());
         }
     }
-    /// `wanting` says by whom, a bit each.
-    HWY_INLINE void add(std::uint32_t what, std::uint32_t wanting) {
-        what_[count_] = what;
-        wanting_[count_] = wanting;
-        count_ += wanting != 0;
+    /// Adds a node unless its mask is 0.
+    HWY_INLINE void add(std::uint32_t node, std::uint32_t mask) {
+        nodes_[count_] = node;
+        masks_[count_] = mask;
+        count_ += mask != 0;
     }
 
     std::size_t count() const { return count_; }
-    std::uint32_t what(std::size_t i) const { return what_[i]; }
-    std::uint32_t wanting(std::size_t i) const { return wanting_[i]; }
+    std::uint32_t node(std::size_t i) const { return nodes_[i]; }
+    std::uint32_t mask(std::size_t i) const { return masks_[i]; }
 
-    /// What each of the eight wants, in the order in which it was added; until the next call.
-    HWY_INLINE std::array<std::span<const std::uint32_t>, eight> share_out() {
+    /// The nodes of each octant, in the order in which they were added; valid until the next call.
+    HWY_INLINE std::array<std::span<const std::uint32_t>, eight> per_octant() {
         const std::size_t room = count_ + eight, all = eight * room; // vectors are written in full
         if (parts_.size() < all)
             parts_.resize(2 * all);
-        std::fill_n(wanting_.begin() + static_cast<std::ptrdiff_t>(count_), eight, 0u);
+        std::fill_n(masks_.begin() + static_cast<std::ptrdiff_t>(count_), eight, 0u);
         std::array<std::span<const std::uint32_t>, eight> parts;
         for (std::size_t i = 0; i < eight; ++i) {
             std::uint32_t *const part = parts_.data() + i * room, *end = part;
             const auto bit = hn::Set(du, 1u << i);
             for (std::size_t k = 0; k < count_; k += lanes) {
-                const auto wants = hn::TestBit(hn::LoadU(du, &wanting_[k]), bit);
-                // CompressStore() is many times as slow on some machines.
-                hn::StoreU(hn::Compress(hn::LoadU(du, &what_[k]), wants), du, end);
-                end += hn::CountTrue(du, wants);
+                const auto needed = hn::TestBit(hn::LoadU(du, &masks_[k]), bit);
+                // CompressStore() is many times slower on some machines.
+                hn::StoreU(hn::Compress(hn::LoadU(du, &nodes_[k]), needed), du, end);
+                end += hn::CountTrue(du, needed);
             }
             parts[i] = {part, end};
         }
@@ -69,53 +69,53 @@ class Shares {
     }
 
   private:
-    Nodes what_, wanting_; // of one size
+    Nodes nodes_, masks_; // of equal size
     Nodes parts_;
     std::size_t count_ = 0;
 };
 
-/// A radius that every node is over, so that none but leaves are picked.
+/// A limit that every radius exceeds, so that only leaves are selected.
 inline constexpr float down_to_leaves = -1.0f;
 
-/// Picks the wanted ones out of nodes.
+/// Selects the nodes that some octant or voxel needs.
 class Sieve {
   public:
-    /// `wanting` gives the bits of those that want a node; nodes of a radius over `largest` are asked for by their
-    /// children.
-    template <class Wanting>
+    /// `mask_of(node)` returns one bit per octant or voxel that needs a node. Inner nodes of a radius above
+    /// `largest` are replaced by their children.
+    template <class MaskOf>
     HWY_INLINE void sift(const TriangleTree& tree, std::span<const std::uint32_t> nodes, float largest,
-                         const Wanting& wanting) {
+                         const MaskOf& mask_of) {
         std::size_t opened = 0;
         const auto make_room = [&](std::size_t more) {
-            shares_.make_room(more);
+            selected_.make_room(more);
             if (children_.size() < opened + more)
                 children_.resize(2 * (opened + more));
         };
-        const auto ask = [&](std::uint32_t node) HWY_ATTR {
-            const std::uint32_t bits = wanting(node);
+        const auto test = [&](std::uint32_t node) HWY_ATTR {
+            const std::uint32_t bits = mask_of(node);
             const Bounds& bounds = tree.nodes[node];
-            const bool picked = node < tree.leaves || bounds.radius <= largest;
-            shares_.add(node, picked ? bits : 0);
+            const bool is_small = node < tree.leaves || bounds.radius <= largest;
+            selected_.add(node, is_small ? bits : 0);
             children_[opened] = bounds.child;
-            opened += !picked && bits != 0;
+            opened += !is_small && bits != 0;
         };
-        shares_.clear();
+        selected_.clear();
         make_room(nodes.size());
         for (const std::uint32_t node : nodes)
-            ask(node);
+            test(node);
         for (std::size_t k = 0; k < opened; ++k) {
             make_room(TriangleTree::children);
             const std::uint32_t first = children_[k];
             for (std::uint32_t node = first; node < first + TriangleTree::children; ++node)
-                ask(node);
+                test(node);
         }
     }
 
-    Shares& shares() { return shares_; }
+    MaskedNodes& selected() { return selected_; }
 
   private:
-    Nodes children_; // of opened nodes, the first each
-    Shares shares_;
+    Nodes children_; // first child of each opened node
+    MaskedNodes selected_;
 };
 
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int eight = 8;
 static_assert(TriangleLeaf::size == eight && largest_leaf == eight && TriangleTree::children == eight);
-// Floats at the far end of the grid are this coarse, relatively; bounds are widened by it.
+// Relative rounding error of floats; bounds are widened by it.
 constexpr float rounding = 0x1p-21f;
 constexpr float nowhere = 1e18f; // its square is finite
 
@@ -26,31 +26,31 @@ Bounds widened(Bounds c) {
     return c;
 }
 
-/// A group of fragments and its bounds.
-Bounds make_group(const FragmentLeaves& fragments, std::size_t g, TriangleLeaf& group) {
+/// Fills a leaf with its fragments and returns its bounds.
+Bounds fill_leaf(const FragmentLeaves& fragments, std::size_t g, TriangleLeaf& leaf) {
     const std::size_t begin = fragments.begin(g), count = fragments.begin(g + 1) - begin;
     const Fragment first = fragments.fragment(begin);
-    group.origin = first.origin;
-    group.count = static_cast<std::uint32_t>(count);
+    leaf.origin = first.origin;
+    leaf.count = static_cast<std::uint32_t>(count);
     Corners corners;
     for (std::size_t i = 0; i < eight; ++i) {
         if (i < count)
-            fragments.expect(begin + i);
+            fragments.prefetch(begin + i);
         const Fragment p = i > 0 && i < count ? fragments.fragment(begin + i) : first;
-        const Vec3 a = Vec3(p.origin - group.origin) + p.corners[0];
+        const Vec3 a = Vec3(p.origin - leaf.origin) + p.corners[0];
         for (int axis = 0; axis < 3; ++axis) {
             corners.a[axis][i] = a[axis];
             corners.ab[axis][i] = p.corners[1][axis] - p.corners[0][axis];
             corners.ac[axis][i] = p.corners[2][axis] - p.corners[0][axis];
         }
-        group.triangle[i] = p.triangle;
+        leaf.triangle[i] = p.triangle;
     }
-    Bounds bounds = widened(set_frames(corners, group));
+    Bounds bounds = widened(set_frames(corners, leaf));
     bounds.child = static_cast<std::uint32_t>(g);
     return bounds;
 }
 
-/// Of eight nodes.
+/// The bounds of up to eight nodes.
 Bounds bounds_of(std::span<const Bounds> children) {
     Vec3 least(nowhere), most(-nowhere), normal(0.0f);
     for (const Bounds& b : children) {
@@ -61,8 +61,8 @@ Bounds bounds_of(std::span<const Bounds> children) {
     Bounds result{0.5f * (least + most), unit_or_z(normal), children[0].point, 0.0f, 0.0f, 0};
     float low = nowhere, high = -nowhere;
     for (const Bounds& b : children) {
-        const Vec3 way = b.centre - result.centre;
-        const float height = glm::dot(way, result.axis);
+        const Vec3 offset = b.centre - result.centre;
+        const float height = glm::dot(offset, result.axis);
         const float cosine = std::min(1.0f, std::fabs(glm::dot(b.axis, result.axis)));
         const float sine = std::min(1.0f, glm::length(glm::cross(b.axis, result.axis)));
         const float half = cosine * b.thickness + sine * b.radius;
@@ -71,14 +71,14 @@ Bounds bounds_of(std::span<const Bounds> children) {
         low = std::min(low, height - half);
         high = std::max(high, height + half);
         result.radius =
-            std::max(result.radius, glm::length(way - height * result.axis) + b.radius + sine * b.thickness);
+            std::max(result.radius, glm::length(offset - height * result.axis) + b.radius + sine * b.thickness);
     }
     result.centre += 0.5f * (low + high) * result.axis;
     result.thickness = 0.5f * (high - low);
     return widened(result);
 }
 
-std::size_t in_eights(std::size_t count) {
+std::size_t round_up_to_eight(std::size_t count) {
     return (count + eight - 1) / eight * eight;
 }
 
@@ -86,36 +86,35 @@ std::size_t in_eights(std::size_t count) {
 
 TriangleTree::TriangleTree(const FragmentLeaves& fragments) {
     triangles.resize(fragments.count());
-    std::size_t total = in_eights(triangles.size());
+    std::size_t total = round_up_to_eight(triangles.size());
     for (std::size_t level = total; level > eight; total += level)
-        level = in_eights(level / eight);
+        level = round_up_to_eight(level / eight);
     nodes.resize(total);
     parallel_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g)
-            nodes[g] = make_group(fragments, g, triangles[g]);
+            nodes[g] = fill_leaf(fragments, g, triangles[g]);
     });
-    // The nodes of a level stand at its begin, `count` of them.
+    // The current level has `count` nodes, beginning at `first`, followed by padding.
     std::size_t first = 0, count = triangles.size();
-    const auto fill_up = [&] {
-        const Bounds filling{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f, 0};
-        std::fill_n(nodes.begin() + static_cast<std::ptrdiff_t>(first + count), in_eights(count) - count,
-                    filling);
+    const auto add_padding = [&] {
+        const Bounds padding{Vec3(nowhere), Vec3(0, 0, 1), Vec3(nowhere), 0.0f, -1.0f, 0};
+        std::fill_n(nodes.begin() + static_cast<std::ptrdiff_t>(first + count), round_up_to_eight(count) - count,
+                    padding);
     };
-    fill_up();
-    leaves = static_cast<std::uint32_t>(in_eights(count));
+    add_padding();
+    leaves = static_cast<std::uint32_t>(round_up_to_eight(count));
     while (count > eight) {
-        const std::size_t next = first + in_eights(count), parents = in_eights(count) / eight;
+        const std::size_t next = first + round_up_to_eight(count), parents = round_up_to_eight(count) / eight;
         parallel_for(parents, 256, [&](std::size_t begin, std::size_t end) {
             for (std::size_t p = begin; p < end; ++p) {
-                const std::size_t child = first + eight * p,
-                                  held = std::min<std::size_t>(eight, count - eight * p);
-                nodes[next + p] = bounds_of(std::span(nodes).subspan(child, held));
+                const std::size_t child = first + eight * p, used = std::min<std::size_t>(eight, count - eight * p);
+                nodes[next + p] = bounds_of(std::span(nodes).subspan(child, used));
                 nodes[next + p].child = static_cast<std::uint32_t>(child);
             }
         });
         first = next;
         count = parents;
-        fill_up();
+        add_padding();
     }
 }
 

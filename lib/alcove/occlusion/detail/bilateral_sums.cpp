@@ -2,7 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "alcove/occlusion/detail/bilateral_sums.cpp"
-#include <hwy/foreach_target.h> // compiles this file once a target
+#include <hwy/foreach_target.h> // compiles this file once per target
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -26,17 +26,17 @@ void weigh_all(const Curve& curve, std::size_t center, std::size_t first, float 
                    dz = hn::Sub(hn::LoadU(d, curve.z + i), z);
         const auto distance2 = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
         const auto near = hn::Max(hn::NegMulAdd(distance2, inverse_reach2, one), zero);
-        const auto cosine = hn::Max(
-            hn::MulAdd(hn::LoadU(d, curve.nx + i), nx,
-                       hn::MulAdd(hn::LoadU(d, curve.ny + i), ny, hn::Mul(hn::LoadU(d, curve.nz + i), nz))),
-            zero);
+        const auto cosine =
+            hn::Max(hn::MulAdd(hn::LoadU(d, curve.nx + i), nx,
+                               hn::MulAdd(hn::LoadU(d, curve.ny + i), ny, hn::Mul(hn::LoadU(d, curve.nz + i), nz))),
+                    zero);
         auto difference2 = zero;
         for (const float* probe : curve.probe) {
             const auto difference = hn::Sub(hn::LoadU(d, probe + i), hn::Set(d, probe[center]));
             difference2 = hn::MulAdd(difference, difference, difference2);
         }
-        const auto alike = hn::Max(hn::NegMulAdd(difference2, sharpness, one), zero);
-        const auto root = hn::Mul(hn::Mul(near, alike), hn::Mul(cosine, cosine));
+        const auto similar = hn::Max(hn::NegMulAdd(difference2, sharpness, one), zero);
+        const auto root = hn::Mul(hn::Mul(near, similar), hn::Mul(cosine, cosine));
         hn::StoreU(hn::Mul(root, root), d, weights + k);
     }
 }

@@ -1,4 +1,4 @@
-/// The weighted sums behind a local regression, many neighbours at a time.
+/// SIMD weights and weighted sums for joint bilateral filtering and local regression.
 #pragma once
 
 #include <array>
@@ -8,15 +8,15 @@ namespace alcove {
 
 /// Surfels along a curve, as arrays of at least `window` values.
 struct Curve {
-    static constexpr std::size_t window = 96; ///< neighbours on the curve that share their rays
+    static constexpr std::size_t window = 96; ///< consecutive surfels in one filter window
     static constexpr std::size_t probes = 10;
 
-    const float *x, *y, *z;
-    const float *nx, *ny, *nz;              ///< unit, or zero for one without a say
-    std::array<const float*, probes> probe; ///< what each of them tells
+    const float *x, *y, *z;                 ///< positions
+    const float *nx, *ny, *nz;              ///< unit normals, or zero to exclude a surfel
+    std::array<const float*, probes> probe; ///< CalibratedInputs of each probe
 };
 
-/// Weights of the `window` surfels from `first` on, as neighbours of surfel `center`: products of
+/// The weights of the `window` surfels from `first` on, as neighbours of surfel `center`: the products of
 ///
 ///     (1 − |p_i − p|²/reach²)₊²     (n_i·n)₊⁴     (1 − 0.4 Σ (probe_i − probe)²)₊²
 void weigh(const Curve& curve, std::size_t center, std::size_t first, float reach, float* weights);

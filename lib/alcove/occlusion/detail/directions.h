@@ -1,4 +1,4 @@
-/// Directions over the hemisphere around a normal, low-discrepancy and reproducible.
+/// Low-discrepancy, reproducible directions over the hemisphere around a normal.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -12,8 +12,7 @@
 
 namespace alcove {
 
-/// An orthonormal basis around n, continuous but at n.z = 0−. T. Duff et al., "Building an Orthonormal Basis,
-/// Revisited" (2017).
+/// An orthonormal basis around the unit vector n, continuous except at n.z = 0− (Duff et al. 2017).
 struct Basis {
     Vec3 tangent, bitangent, normal;
 
@@ -23,25 +22,23 @@ struct Basis {
         tangent = {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x};
         bitangent = {b, sign + n.y * n.y * a, -n.y};
     }
-    Vec3 to_world(const Vec3& local) const {
-        return local.x * tangent + local.y * bitangent + local.z * normal;
-    }
+    Vec3 to_world(const Vec3& local) const { return local.x * tangent + local.y * bitangent + local.z * normal; }
 };
 
-/// Pdf cos θ / π over the hemisphere around +z; u, v in [0, 1). P. Shirley, K. Chiu (1997), in polar form.
+/// Cosine-weighted hemisphere sampling around +z, pdf cos θ / π; u, v in [0, 1). Malley's method in polar
+/// coordinates (Malley 1988).
 inline Vec3 cosine_hemisphere(float u, float v) {
     const float r = std::sqrt(u), phi = 2.0f * std::numbers::pi_v<float> * v;
     return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0f - u)};
 }
 
-/// Pdf 1 / 2π over the hemisphere around +z; u, v in [0, 1).
+/// Uniform hemisphere sampling around +z, pdf 1 / 2π; u, v in [0, 1).
 inline Vec3 uniform_hemisphere(float u, float v) {
     const float r = std::sqrt(1.0f - u * u), phi = 2.0f * std::numbers::pi_v<float> * v;
     return {r * std::cos(phi), r * std::sin(phi), u};
 }
 
-/// Mixes the bits of x: every output bit depends on every input bit. C. Wellons, "Prospecting for Hash
-/// Functions" (2018), lowbias32.
+/// An integer hash: every output bit depends on every input bit. lowbias32 (Wellons 2018).
 inline std::uint32_t hash(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -51,12 +48,12 @@ inline std::uint32_t hash(std::uint32_t x) {
     return x;
 }
 
-/// [0, 1) from the upper 24 bits.
+/// A number in [0, 1) from the upper 24 bits.
 inline float unit_interval(std::uint32_t x) {
     return static_cast<float>(x >> 8) * 0x1p-24f;
 }
 
-/// A number tied to a place and a seed: the same whatever the order of the vertices.
+/// Hash of a position and a seed: independent of the order of the vertices.
 inline std::uint32_t hash(const Vec3& p, std::uint32_t seed) {
     std::uint32_t h = hash(seed + 0x9e3779b9u);
     for (const float coordinate : {p.x, p.y, p.z})
@@ -64,29 +61,29 @@ inline std::uint32_t hash(const Vec3& p, std::uint32_t seed) {
     return h;
 }
 
-/// Point i of n of a Fibonacci lattice on the unit square, shifted on the torus by (shift_u, shift_v).
-/// R. Cranley, T. Patterson (1976); lattice: J. Keinert et al., "Spherical Fibonacci Mapping" (2015).
+/// Point i of n of a Fibonacci lattice on the unit square (Keinert et al. 2015), shifted on the torus by
+/// (shift_u, shift_v) (Cranley and Patterson 1976).
 inline Vec2 fibonacci_point(int i, int n, float shift_u, float shift_v) {
     constexpr double golden = 0.6180339887498949;
     const double u = (i + 0.5) / n + shift_u, v = i * golden + shift_v;
-    // Rounding to float may not reach 1.
+    // Keeps rounding to float from reaching 1.
     constexpr float below_one = 1.0f - 0x1p-24f;
     return {std::min(static_cast<float>(u - std::floor(u)), below_one),
             std::min(static_cast<float>(v - std::floor(v)), below_one)};
 }
 
-/// Point i of an additive recurrence on the unit square: any run of consecutive points is low-discrepancy.
-/// M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018).
+/// Point i of an additive recurrence on the unit square: any run of consecutive points is low-discrepancy
+/// (Roberts 2018).
 inline Vec2 recurrence_point(std::uint64_t i, std::uint32_t seed) {
-    // 1/ρ and 1/ρ² with ρ³ = ρ + 1, as fractions of 2^64: products wrap as they should.
+    // 1/ρ and 1/ρ² with ρ³ = ρ + 1, as fractions of 2^64: integer overflow takes the products modulo 1.
     const std::uint64_t u = i * 0xc13fa9a902a6328fu, v = i * 0x91e10da5c79e7b1du;
     const std::uint32_t h = hash(seed);
     return {unit_interval(static_cast<std::uint32_t>(u >> 32) + h),
             unit_interval(static_cast<std::uint32_t>(v >> 32) + hash(h))};
 }
 
-/// The lattice of `fibonacci_point` sent through `cosine_hemisphere`, with its angles evaluated once for any
-/// number of shifts: the shift in v is a rotation.
+/// The lattice of fibonacci_point() mapped by cosine_hemisphere(). Its sines and cosines are computed once for
+/// all shifts, because a shift in v is a rotation.
 class CosineLattice {
   public:
     explicit CosineLattice(int count) : points_(static_cast<std::size_t>(count)) {
@@ -97,12 +94,11 @@ class CosineLattice {
         }
     }
 
-    /// Where on the torus one surfel's lattice lies.
+    /// The shift of one surfel's lattice on the torus.
     struct Shift {
         float u, cosine, sine;
 
-        explicit Shift(std::uint32_t random)
-            : Shift(Vec2(unit_interval(random), unit_interval(hash(random)))) {}
+        explicit Shift(std::uint32_t random) : Shift(Vec2(unit_interval(random), unit_interval(hash(random)))) {}
         explicit Shift(const Vec2& shift) : u(shift.x) {
             const float phi = 2.0f * std::numbers::pi_v<float> * shift.y;
             cosine = std::cos(phi), sine = std::sin(phi);

@@ -13,19 +13,18 @@ namespace {
 
 static_assert(Curve::probes == probe_count<TenProbes>);
 
-/// The length of the mean of cosine-weighted directions where all are open: ∫ cos²θ dω / π.
-constexpr float straight = 2.0f / 3.0f;
+/// The length of the mean of cosine-weighted directions if all are open: ∫ cos²θ dω / π.
+constexpr float open_length = 2.0f / 3.0f;
 
-/// The variance of one surfel's rays by how open it is; never that of a certain answer, because `open` is a
-/// prediction.
+/// The variance of a single ray, from the predicted visibility. Never 0, because a prediction is not certain.
 float variance_of(float open) {
     const float p = std::clamp(open, 0.05f, 0.95f);
     return p * (1.0f - p);
 }
 
-/// How much a surfel's own rays count beside those of its neighbours: none where their noise explains how much
-/// these differ. Twice the noise, because the differences it is held against vary themselves.
-float trust_in_own(float variance, float noise) {
+/// The weight of a surfel's own rays against the filtered value (James and Stein 1961): 0 if noise explains the
+/// variance among the neighbours. Twice the noise, because that variance is itself an estimate.
+float own_weight(float variance, float noise) {
     return variance > 2.0f * noise ? 1.0f - 2.0f * noise / variance : 0.0f;
 }
 
@@ -36,14 +35,13 @@ JointBilateral::JointBilateral(std::span<const Surfel> surfels, std::span<const 
     : guided_(guided), lattice_(guided.rays), with_bent_(with_bent),
       spacings_(20.0f * std::pow(static_cast<float>(guided.rays), -0.6f)),
       noise_(std::pow(static_cast<float>(guided.rays), -1.4f)),
-      noise_of_bent_(0.5f * std::pow(static_cast<float>(guided.rays), -1.8f)), place_(order.size()) {
+      noise_of_bent_(0.5f * std::pow(static_cast<float>(guided.rays), -1.8f)), index_(order.size()) {
     reserve_huge(surfels_, order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Surfel& surfel = surfels[order[i]];
-        if (surfels_.empty() || surfel.position != surfels_.back().position ||
-            surfel.normal != surfels_.back().normal)
+        if (surfels_.empty() || surfel.position != surfels_.back().position || surfel.normal != surfels_.back().normal)
             surfels_.push_back(surfel);
-        place_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
+        index_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
     }
     padded_ = std::max(surfels_.size(), Curve::window);
     const std::size_t used = with_bent ? columns : bent;
@@ -61,7 +59,7 @@ JointBilateral::JointBilateral(std::span<const Surfel> surfels, std::span<const 
 }
 
 void JointBilateral::probe(const AnyField& field, std::size_t begin, std::size_t end) {
-    // A probe further from the mesh than its diagonal tells nothing of it.
+    // Beyond one diagonal from the mesh, probes carry no information.
     const float radius = std::min(guided_.radius, 1.0f);
     SurfelBatch batch;
     CalibratedInputs<TenProbes> inputs{};
@@ -106,10 +104,10 @@ void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::si
         }
     }
     flush();
-    // Open surroundings bend nothing: what is shared is the deviation from that.
+    // Filter only the deviation from an unoccluded surfel, whose bent normal is its normal.
     for (std::size_t i = begin; with_bent_ && i < end; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            columns_[bent + axis][i] -= straight * columns_[ao][i] * columns_[normal + axis][i];
+            columns_[bent + axis][i] -= open_length * columns_[ao][i] * columns_[normal + axis][i];
 }
 
 void JointBilateral::fit_model() {
@@ -117,20 +115,21 @@ void JointBilateral::fit_model() {
     model.predict(features_, 0, size(), columns_[predicted]);
     double sum = 0.0, sum2 = 0.0, unexplained = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {
-        const float open = std::clamp(columns_[predicted][i], 0.0f, 1.0f), left = columns_[ao][i] - open;
+        const float open = std::clamp(columns_[predicted][i], 0.0f, 1.0f), error = columns_[ao][i] - open;
         columns_[predicted][i] = open;
-        columns_[residual][i] = left;
+        columns_[residual][i] = error;
         sum += open, sum2 += double(open) * open;
-        unexplained += double(left) * left - 1.3 * noise_ * variance_of(open);
+        unexplained += double(error) * error - 1.3 * noise_ * variance_of(open);
     }
-    // On scans the model leaves 0.2 to 0.4 of the deviation of the truth, which its own is near to; more where
-    // the rays say so beyond their noise, of which 1.3 is the most.
+    // On scans the model's error deviates 0.2 to 0.4 times as much as the truth, whose deviation is close to that of
+    // the predictions: hence 0.16 = 0.4². The error is larger where the residuals exceed the noise of the rays, which
+    // is at most 1.3 times noise_.
     const auto count = static_cast<double>(size());
     const double variance = sum2 / count - (sum / count) * (sum / count);
     model_variance_ = static_cast<float>(std::max({0.16 * variance, unexplained / count, 4e-4}));
 }
 
-JointBilateral::Answer JointBilateral::share(std::size_t i) const {
+JointBilateral::Filtered JointBilateral::filter(std::size_t i) const {
     const std::size_t first = std::min(i - std::min(i, Curve::window / 2), padded_ - Curve::window);
     std::array<float, Curve::window> weights;
     weigh(curve(), i, first, reach(i), weights.data());
@@ -139,31 +138,30 @@ JointBilateral::Answer JointBilateral::share(std::size_t i) const {
     const float noise = noise_ * variance_of(model);
     const float mean = m.v / (m.w + noise / model_variance_);
     const float variance = m.vv / m.w - 2.0f * mean * m.v / m.w + mean * mean;
-    const float shared = model + mean, own = trust_in_own(variance, noise);
-    Answer answer{std::clamp(shared + own * (columns_[ao][i] - shared), 0.0f, 1.0f), Vec3(0.0f)};
+    const float smooth = model + mean, own = own_weight(variance, noise);
+    Filtered filtered{std::clamp(smooth + own * (columns_[ao][i] - smooth), 0.0f, 1.0f), Vec3(0.0f)};
     if (with_bent_)
-        answer.bent = share_bent(i, first, weights.data()) + straight * answer.ao * surfels_[i].normal;
-    return answer;
+        filtered.bent = filter_bent(i, first, weights.data()) + open_length * filtered.ao * surfels_[i].normal;
+    return filtered;
 }
 
-/// A component is fitted as a + b·(predicted_i − predicted) in the neighbourhood; what the fit cannot tell, the
-/// surfel's own rays do.
-Vec3 JointBilateral::share_bent(std::size_t i, std::size_t first, const float* weights) const {
-    float left = 0.0f;
+/// Fits each component as a + b·(predicted_i − predicted) over the neighbours; the surfel's own rays correct for
+/// what the fit leaves unexplained.
+Vec3 JointBilateral::filter_bent(std::size_t i, std::size_t first, const float* weights) const {
+    float unexplained = 0.0f;
     Vec3 fitted(0.0f), own(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
         const float* values = columns_[bent + static_cast<std::size_t>(axis)];
-        const Moments m =
-            moments(weights, columns_[predicted] + first, columns_[predicted][i], values + first);
+        const Moments m = moments(weights, columns_[predicted] + first, columns_[predicted][i], values + first);
         const float g = m.g / m.w, v = m.v / m.w;
-        // The predictions of a flat neighbourhood say nothing: what they vary by rounding is no slope.
+        // The 1e-4 keeps rounding differences between nearly equal predictions from producing a slope.
         const float spread = m.gg / m.w - g * g + 1e-4f, covariance = m.vg / m.w - g * v;
         const float slope = covariance / spread;
         fitted[axis] = v - slope * g;
         own[axis] = values[i];
-        left += std::max(m.vv / m.w - v * v - slope * covariance, 0.0f);
+        unexplained += std::max(m.vv / m.w - v * v - slope * covariance, 0.0f);
     }
-    return fitted + trust_in_own(left, noise_of_bent_) * (own - fitted);
+    return fitted + own_weight(unexplained, noise_of_bent_) * (own - fitted);
 }
 
 Curve JointBilateral::curve() const {
@@ -183,9 +181,9 @@ float JointBilateral::reach(std::size_t i) const {
             distances[count++] = glm::length(surfels_[k].position - surfels_[i].position);
     if (count == 0)
         return 1.0f;
-    // Without branches, which nothing predicts here.
-    for (std::size_t least = 0; least <= count / 2; ++least)
-        for (std::size_t k = count - 1; k > least; --k) {
+    // A partial sort up to the median, branchless because these branches are unpredictable.
+    for (std::size_t sorted = 0; sorted <= count / 2; ++sorted)
+        for (std::size_t k = count - 1; k > sorted; --k) {
             const float a = distances[k - 1], b = distances[k];
             distances[k - 1] = std::min(a, b);
             distances[k] = std::max(a, b);

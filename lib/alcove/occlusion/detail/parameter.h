@@ -1,4 +1,4 @@
-/// The parameters of an estimator as data: what `--set name=value` sets and `alcove methods` lists.
+/// Reflection of the parameters of an estimator, for `--set name=value` and `alcove methods`.
 ///
 ///     static constexpr auto parameters() {
 ///         return std::array{parameter<&Mine::samples>("samples", 2, 64, "probes", "along the normal")};
@@ -16,7 +16,7 @@
 
 namespace alcove {
 
-/// A member of E that a user may set. Defaults are those of the struct itself.
+/// A member of E that a user can set. Its default is that of the struct.
 template <class E>
 struct Parameter {
     std::string_view name;
@@ -47,20 +47,38 @@ constexpr auto parameter(std::string_view name, double min, double max, std::str
                         [](E& estimator, double value) { estimator.*member = static_cast<T>(value); }};
 }
 
-/// Of the struct E, which names all of these itself.
+template <class E>
+constexpr SampleKind samples_of() {
+    for (const auto& p : E::parameters()) {
+        if (p.name == parameter_of(SampleKind::rays))
+            return SampleKind::rays;
+        if (p.name == parameter_of(SampleKind::probes))
+            return SampleKind::probes;
+    }
+    return SampleKind::none;
+}
+
+/// The description of E, from its static members.
 template <class E>
 constexpr MethodInfo info_of() {
-    return {E::name, E::summary, E::formula, E::source, E::cost, E::good, E::bad, [] {
+    return {E::name,
+            E::summary,
+            E::formula,
+            E::source,
+            E::cost,
+            E::good,
+            E::bad,
+            [] {
                 const E standard;
                 std::vector<ParameterInfo> infos;
                 for (const auto& p : E::parameters())
-                    infos.push_back(
-                        {p.name, p.get(standard), p.min, p.max, p.integer, p.flag, p.unit, p.summary});
+                    infos.push_back({p.name, p.get(standard), p.min, p.max, p.integer, p.flag, p.unit, p.summary});
                 return infos;
-            }};
+            },
+            samples_of<E>()};
 }
 
-/// E with the radius and all parameters that it has. Values must be in range.
+/// E with the radius and its own parameters from the settings; ignores the rest. Values must be in range.
 template <class E>
 E with_settings(const Settings& settings) {
     E method;

@@ -7,8 +7,8 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t run = 64, least_runs = 64, most_runs = 256;
-constexpr double ridge = 1e-3; // of each term's mean square, which is of the order of 1
+constexpr std::size_t run = 64, min_runs = 64, max_runs = 256;
+constexpr double ridge = 1e-3; // per value; the mean square of each term is of the order of 1
 
 }
 
@@ -32,8 +32,7 @@ void RidgeRegression::predict(std::span<const float* const> features, std::size_
 
 RidgeRegression fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
                                     std::size_t count) {
-    const std::size_t runs = (count + run - 1) / run,
-                      used = std::min(runs, std::clamp(runs / 4, least_runs, most_runs));
+    const std::size_t runs = (count + run - 1) / run, used = std::min(runs, std::clamp(runs / 4, min_runs, max_runs));
     const auto terms = static_cast<Eigen::Index>((features.size() + 1) * (features.size() + 2) / 2);
     using Array = Eigen::Array<float, run, 1>;
     Eigen::MatrixXf block = Eigen::MatrixXf::Zero(run, terms);

@@ -4,8 +4,8 @@
 
 namespace alcove {
 
-std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t most) {
-    const std::size_t count = std::min(items.size(), most);
+std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t max_count) {
+    const std::size_t count = std::min(items.size(), max_count);
     std::vector<std::uint32_t> chosen(count);
     for (std::size_t i = 0; i < count; ++i)
         chosen[i] = items[i * items.size() / count];

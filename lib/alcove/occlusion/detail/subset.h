@@ -1,4 +1,4 @@
-/// Some of many, spread over all of them.
+/// Evenly spread subsets.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -9,10 +9,10 @@
 
 namespace alcove {
 
-/// Up to `most` of the items, evenly.
-std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t most);
+/// At most `max_count` of the items, at even steps.
+std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t max_count);
 
-/// The surfels of those indices.
+/// surfels[i] for each index i.
 std::vector<Surfel> pick(std::span<const Surfel> surfels, std::span<const std::uint32_t> indices);
 
 }

@@ -12,21 +12,21 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t most_surfels = 4096;
+constexpr std::size_t max_surfels = 4096;
 
-/// Voxels between the faces of a solid, and between sheets, that are told however they lie in the grid.
-constexpr float told_of_solids = 1.5f, told_of_sheets = 2.5f;
+/// Voxels between two faces of a solid, or two sheets, from which any grid alignment resolves them.
+constexpr float resolved_solid = 1.5f, resolved_sheet = 2.5f;
 
-/// Where rays start, unit space: beyond the rounding of the faces around the surfel.
+/// Start of the rays, unit space: clears the rounding error of the faces around the surfel.
 constexpr float start = 2e-6f;
 
-/// The next face of a ray.
+/// The first face that a ray hits.
 struct NextFace {
     float distance = std::numeric_limits<float>::infinity();
     bool back = false; ///< seen from behind
 };
 
-/// Of each surfel along its normal (side 1) or against it (-1), as far as `reach`.
+/// The next face of each surfel along its normal (side 1) or against it (-1), within `reach`.
 std::vector<NextFace> next_faces(const std::vector<Surfel>& surfels, const RaySurface& surface, float side,
                                  float reach) {
     std::vector<NextFace> faces(surfels.size());
@@ -39,15 +39,14 @@ std::vector<NextFace> next_faces(const std::vector<Surfel>& surfels, const RaySu
             surface.find_nearest(rays, reach, hits);
             for (std::size_t i = 0; i < rays.count; ++i)
                 if (rays.hit[i])
-                    faces[at + i] = {rays.travelled[i],
-                                     glm::dot(hits[i].normal, side * surfels[at + i].normal) > 0.0f};
+                    faces[at + i] = {rays.travelled[i], glm::dot(hits[i].normal, side * surfels[at + i].normal) > 0.0f};
         }
     });
     return faces;
 }
 
-/// How near another face is that the grid does not tell from the surfel's own. In solids only a back, and not of what
-/// the surfel itself is inside of.
+/// Distance to a face that the grid cannot separate from the surfel's own; infinite if there is none. In solids,
+/// only the far side of the wall counts, and only if the surfel is not itself inside a solid.
 float thickness(const NextFace& behind, const NextFace& in_front, bool two_sided) {
     if (two_sided)
         return std::min(behind.distance, in_front.distance);
@@ -56,13 +55,12 @@ float thickness(const NextFace& behind, const NextFace& in_front, bool two_sided
 
 }
 
-ThinWalls thin_walls(std::span<const Surfel> surfels, const RaySurface& surface, float voxel,
-                     bool two_sided) {
-    constexpr float across = 1.0f; // the surface
-    const std::vector<Surfel> some = pick(surfels, evenly(spatial_order(surfels), most_surfels));
-    const float told = two_sided ? told_of_sheets : told_of_solids;
-    const std::vector<NextFace> behind = next_faces(some, surface, -1.0f, told * voxel);
-    const std::vector<NextFace> in_front = next_faces(some, surface, 1.0f, two_sided ? told * voxel : across);
+ThinWalls thin_walls(std::span<const Surfel> surfels, const RaySurface& surface, float voxel, bool two_sided) {
+    constexpr float across = 1.0f; // the whole mesh, to find out whether a surfel is inside a solid
+    const std::vector<Surfel> some = pick(surfels, evenly(spatial_order(surfels), max_surfels));
+    const float resolved = two_sided ? resolved_sheet : resolved_solid;
+    const std::vector<NextFace> behind = next_faces(some, surface, -1.0f, resolved * voxel);
+    const std::vector<NextFace> in_front = next_faces(some, surface, 1.0f, two_sided ? resolved * voxel : across);
     std::vector<float> thin;
     for (std::size_t i = 0; i < some.size(); ++i)
         if (const float t = thickness(behind[i], in_front[i], two_sided); std::isfinite(t))
@@ -71,7 +69,7 @@ ThinWalls thin_walls(std::span<const Surfel> surfels, const RaySurface& surface,
         return {};
     const auto tenth = thin.begin() + static_cast<std::ptrdiff_t>(thin.size() / 10);
     std::nth_element(thin.begin(), tenth, thin.end());
-    return {static_cast<double>(thin.size()) / static_cast<double>(some.size()), *tenth / told};
+    return {static_cast<double>(thin.size()) / static_cast<double>(some.size()), *tenth / resolved};
 }
 
 }

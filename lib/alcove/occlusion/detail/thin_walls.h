@@ -1,4 +1,4 @@
-/// Walls that a grid is too coarse to tell.
+/// Detects walls that are too thin for the voxel size of a grid.
 #pragma once
 
 #include "alcove/occlusion/methods/exact.h"
@@ -8,17 +8,17 @@
 namespace alcove {
 
 struct ThinWalls {
-    double share = 0.0; ///< of the surfels with a normal: how many have another face too near
-    /// Nine of ten of those walls are told by a grid that fine, unit space; 0 where there are none.
+    double share = 0.0; ///< share of the surfels with a normal whose next face is too near, in [0, 1]
+    /// Voxel size that resolves nine tenths of those walls, unit space; 0 if there are none.
     float voxel = 0.0f;
 
-    bool noticeable() const { return share >= 0.005; } ///< not only tips and rims
+    bool noticeable() const { return share >= 0.005; } ///< more than tips and rims
 };
 
-/// Looks for the far sides of walls within one and a half voxels behind surfels, and for any face of sheets within two
-/// and a half, in front of them too. Hardly a sample of the grid is within such a wall, or between such faces of sheets, and
-/// rays through the grid pass them; gaps between solids, however narrow, stop rays. `voxel` in unit space. Cost: two rays
-/// for each of up to 4,096 surfels, evenly along the Morton curve.
+/// Looks for far sides of walls within 1.5 voxels behind the surfels; for sheets, for any face within 2.5 voxels,
+/// behind or in front. Hardly any grid sample is inside such a wall or between such sheets, so rays through the
+/// grid miss them. Gaps between solids do stop rays, however narrow. `voxel` in unit space. Cost: two rays for each
+/// of at most 4,096 surfels, evenly spaced along the Morton curve.
 ThinWalls thin_walls(std::span<const Surfel> surfels, const RaySurface& surface, float voxel, bool two_sided);
 
 }

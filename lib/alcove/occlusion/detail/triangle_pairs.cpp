@@ -6,7 +6,7 @@
 namespace alcove {
 namespace {
 
-bool can_be_met(std::span<const Vec3> positions, const Triangle& t) {
+bool can_be_hit(std::span<const Vec3> positions, const Triangle& t) {
     const auto finite = [&](std::uint32_t corner) {
         const Vec3& p = positions[corner];
         return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -14,7 +14,7 @@ bool can_be_met(std::span<const Vec3> positions, const Triangle& t) {
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0] && std::all_of(t.begin(), t.end(), finite);
 }
 
-/// Takes a second triangle in where it shares an edge with the only one of the pair.
+/// Adds the triangle to the pair if the pair has only one and they share an edge.
 bool join(TrianglePair& pair, const Triangle& triangle) {
     if (pair[3] != pair[2])
         return false;
@@ -22,10 +22,10 @@ bool join(TrianglePair& pair, const Triangle& triangle) {
         return std::find(triangle.begin(), triangle.end(), corner) != triangle.end();
     };
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t alone = pair[k], a = pair[(k + 1) % 3], b = pair[(k + 2) % 3];
-        if (!shared(alone) && shared(a) && shared(b)) {
+        const std::uint32_t apex = pair[k], a = pair[(k + 1) % 3], b = pair[(k + 2) % 3];
+        if (!shared(apex) && shared(a) && shared(b)) {
             const std::uint32_t opposite = triangle[0] ^ triangle[1] ^ triangle[2] ^ a ^ b;
-            pair = {alone, a, opposite, b};
+            pair = {apex, a, opposite, b};
             return true;
         }
     }
@@ -34,14 +34,13 @@ bool join(TrianglePair& pair, const Triangle& triangle) {
 
 }
 
-std::vector<TrianglePair> pair_triangles(std::span<const Vec3> positions,
-                                         std::span<const Triangle> triangles) {
+std::vector<TrianglePair> pair_triangles(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
     constexpr std::uint32_t none = ~0u;
     std::vector<TrianglePair> pairs;
     pairs.reserve(triangles.size());
-    std::vector<std::uint32_t> latest(positions.size(), none); // pair begun at each position
+    std::vector<std::uint32_t> latest(positions.size(), none); // latest pair at each position
     for (const Triangle& t : triangles) {
-        if (!can_be_met(positions, t) || std::any_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+        if (!can_be_hit(positions, t) || std::any_of(t.begin(), t.end(), [&](std::uint32_t corner) {
                 return latest[corner] != none && join(pairs[latest[corner]], t);
             }))
             continue;

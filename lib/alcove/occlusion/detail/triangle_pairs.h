@@ -1,4 +1,4 @@
-/// Triangles two by two: half as many primitives for a hierarchy to sort. Internal.
+/// Pairs triangles into quads, which halves the primitives that a BVH is built from.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -10,13 +10,12 @@
 
 namespace alcove {
 
-/// The triangles (0, 1, 3) and (2, 3, 1); the second is degenerate where a triangle stands alone.
+/// The triangles (0, 1, 3) and (2, 3, 1); the second is degenerate if a triangle has no partner.
 using TrianglePair = std::array<std::uint32_t, 4>;
 
-/// Every triangle once, with a neighbour over an edge where the file has one not far before it. Those that no
-/// ray can meet are left out: with a corner that is twice there or not finite. Corners must name positions.
-/// Cost: about 30 ns a triangle.
-std::vector<TrianglePair> pair_triangles(std::span<const Vec3> positions,
-                                         std::span<const Triangle> triangles);
+/// Every triangle once, paired with an edge neighbour if one comes shortly before it in the list. Skips triangles
+/// that no ray can hit: those with a repeated or non-finite corner. Corner indices must be in range. Cost: about
+/// 30 ns per triangle.
+std::vector<TrianglePair> pair_triangles(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 }

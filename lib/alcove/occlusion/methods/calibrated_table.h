@@ -8,7 +8,7 @@
 ///     mushroom.off oblong.off patch-01.off patch-13.off patch-20.off patch-21.off patch-23.off
 ///     patch-30.off pinion.off pinion_small.off plane.off polygon_mesh.off rotor.off rotor_small.off
 ///     spool.off triceratops.off
-/// Mean RMSE over the meshes that were not, by radius, with 10 | 24 probes | the best constant:
+/// Mean RMSE over the held-out meshes, by radius, with 10 | 24 probes | the best constant:
 ///     50 %: 0.0559 | 0.0476 | 0.1310
 ///     20 %: 0.0403 | 0.0380 | 0.1222
 ///     10 %: 0.0314 | 0.0281 | 0.0996

@@ -11,9 +11,8 @@ struct NetworkLayer {
     std::array<std::array<float, inputs>, outputs> weights;
     std::array<float, outputs> bias;
 
-    /// For every lane of the batch, whether it holds a surfel or not: lanes do not meet.
-    void apply(const std::array<SurfelBatch::Values, inputs>& in,
-               std::array<SurfelBatch::Values, outputs>& out) const {
+    /// Computes all lanes of the batch, including unused ones: lanes are independent.
+    void apply(const std::array<SurfelBatch::Values, inputs>& in, std::array<SurfelBatch::Values, outputs>& out) const {
         for (std::size_t o = 0; o < outputs; ++o) {
             SurfelBatch::Values sum;
             sum.fill(bias[o]);
@@ -25,8 +24,7 @@ struct NetworkLayer {
     }
 };
 
-/// Two hidden layers of rectified units, max(0, x), and one value that comes of them. V. Nair, G. Hinton,
-/// "Rectified linear units improve restricted Boltzmann machines" (2010).
+/// Two hidden layers of rectified linear units, max(0, x) (Nair and Hinton 2010), and a linear output.
 template <std::size_t inputs, std::size_t first_units, std::size_t second_units>
 struct Network {
     NetworkLayer<inputs, first_units> first;

@@ -6,21 +6,21 @@
 
 namespace alcove {
 
-/// Each probe stands half a radius up the normal and as much aside, and tells what share of that height is open:
+/// Each probe is half a radius up the normal and half a radius to one side, and measures which share of that height
+/// is open:
 ///
 ///     bent = normalize(3 ao n + Σ o_i (n + t_i)),   o_i = clamp(d(p + R/2 (n + t_i)) / (R/2))
 ///
-/// with t_i the four directions along the axes of the surfel's own Basis; (0, 0, 0) where neither ao nor a probe
-/// is open. n on planes and convex shapes. Source: our own, of no document; tilt, height and the 3 are the nearest
-/// to exact rays of those tried on the fitted meshes of docs/calibrated.md. On the mean of the meshes never fitted
-/// it is 3.0, 1.9 and 1.3 degrees from 1,024 rays at radii of 20, 10 and 5 % of D, where the normal is 5.1, 3.5
-/// and 2.3; on a few of them it is no nearer than the normal. Deep in corners it leans too little, and by up to 35
-/// degrees aside where the probes stand askew to the walls. Cost: 4 map() calls a surfel.
+/// with t_i the four axis directions of the surfel's Basis; (0, 0, 0) if ao and all probes are 0. Equals n on planes
+/// and convex shapes. Source: our own, not from a publication. Tilt, height and the factor 3 are those closest to
+/// exact rays on the fitted meshes of docs/calibrated.md. Averaged over the meshes never fitted, the error against
+/// 1,024 rays is 3.0, 1.9 and 1.3 degrees at radii of 20, 10 and 5 % of D; that of the plain normal is 5.1, 3.5 and
+/// 2.3. On a few meshes it is no better than the normal. Deep in corners it leans too little, and it is off sideways
+/// by up to 35 degrees where the probes are skewed to the walls. Cost: 4 map() calls per surfel.
 template <Field F>
-void ring_bent_normal(const F& field, const SurfelBatch& surfels, float radius, const float* ao,
-                      float* bent) {
+void ring_bent_normal(const F& field, const SurfelBatch& surfels, float radius, const float* ao, float* bent) {
     const float height = 0.5f * radius, per_height = 1.0f / height;
-    // The directions along one axis, then those along the other.
+    // The two tangent directions, then the two bitangent ones.
     std::array<ProbeBatch, 4> probes;
     for (std::size_t k = 0; k < surfels.count; ++k) {
         const Basis basis(surfels.normal(k));

@@ -1,11 +1,11 @@
-/// How far it is through the solid to its other side.
+/// The thickness of a solid or sheet below a surfel.
 #pragma once
 
 #include "alcove/occlusion/methods/traced.h"
 
 namespace alcove {
 
-/// The field seen from inside the solid; a sheet has air on both sides.
+/// The field with inside and outside swapped; unchanged for sheets, which have air on both sides.
 template <Field F>
 struct Inverted {
     const F& field;
@@ -21,19 +21,19 @@ struct Inverted {
     bool two_sided() const { return alcove::two_sided(field); }
 };
 
-/// thickness = min(radius, distance from p along −n to the next surface), by one ray traced through the inside.
-/// In a solid it starts half a voxel deep at most: what is thinner is told within that. Behind a sheet it starts
-/// 1.9 voxels deep, and what is thinner is not seen. Cost: 4–20 map() calls a surfel.
+/// thickness = min(radius, distance from p along −n to the next surface), sphere-traced with one ray (Hart 1996).
+/// In a solid the ray starts at most half a voxel deep, so thinner walls are accurate to that. Behind a sheet it
+/// starts 1.9 voxels deep and misses anything nearer. Cost: 4–20 map() calls per surfel.
 struct Thickness {
     float radius = 0.1f; ///< largest thickness, > 0; may be infinite
 
     static constexpr std::string_view name = "thickness";
     static constexpr std::string_view summary = "one ray along the reversed normal to the far side";
     static constexpr std::string_view formula = "min(radius, distance from p along -n to the next surface)";
-    static constexpr std::string_view source = "J. C. Hart, Sphere tracing (1996)";
+    static constexpr std::string_view source = "sphere tracing: J. C. Hart (1996)";
     static constexpr std::string_view cost = "4-20";
-    static constexpr std::string_view good = "within a voxel on plates and solids";
-    static constexpr std::string_view bad = "of an open surface it is the way to whatever stands behind";
+    static constexpr std::string_view good = "accurate to a voxel on plates and solids";
+    static constexpr std::string_view bad = "on open surfaces it measures the distance to whatever is behind";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::thickness;
 
@@ -74,14 +74,12 @@ struct Thickness {
     }
 
   private:
-    /// Moves on to where the way is known to be free: through the balls around probes each four times as deep as
-    /// the one before, as long as they overlap. A ray along the normal leaves the surface as fast as it goes, so
-    /// most get far beyond what steps from ball to ball would reach. B. Keinert et al., "Enhanced Sphere Tracing"
-    /// (2014).
+    /// Advances each depth through the empty balls around probes, each probe four times as deep as the last, as long
+    /// as the balls overlap. A ray along the normal moves straight away from the surface, so this gets much further
+    /// than sphere tracing from ball to ball (Keinert et al. 2014).
     template <Field F>
-    static void leave_surface(const F& inside, const SurfelBatch& turned, float clearance, float far,
-                              float* depths) {
-        // A ball a little deeper than half the way reaches its end.
+    static void leave_surface(const F& inside, const SurfelBatch& turned, float clearance, float far, float* depths) {
+        // The ball around a probe a little beyond half way can reach the end of the ray.
         const float deepest = 0.55f * far;
         float depth = deepest;
         while (depth > 16.0f * clearance)
@@ -105,11 +103,12 @@ struct Thickness {
         }
     }
 
-    /// The corners up to 1.5 voxels behind a sheet are negative: interpolated with the next ones behind them they
-    /// look like a surface, at most 1.5 + 1.5/(1.5 + 2.5) voxels behind it.
+    /// Grid samples up to 1.5 voxels behind a sheet are negative. Interpolation with the next samples behind them
+    /// produces a false surface, at most 1.5 + 1.5/(1.5 + 2.5) voxels behind the sheet.
     static constexpr float behind_sheet = 1.9f;
 
-    /// A voxel before such a hit the field tells the true distance.
+    /// Moves hits on the false surface of a far sheet on to the sheet: one voxel before such a hit the field still
+    /// gives the true distance.
     template <Field F>
     static void pass_negative_layer(const F& field, RayBatch& rays, float voxel) {
         ProbeBatch probes;

@@ -1,5 +1,5 @@
-/// Rays over the hemisphere, sphere-traced through the field: what tends to the reference as rays and voxels
-/// do.
+/// Rays over the hemisphere, sphere-traced through the field. Converges to the reference with more rays and finer
+/// voxels.
 #pragma once
 
 #include "alcove/field/detail/trace.h"
@@ -11,17 +11,15 @@
 
 namespace alcove {
 
-/// The heights along the normals from which rays may start: where the field itself answers at least
-/// `clearance`, at most `highest`. A surfel lies on the true surface, so beside the interpolated one of a
-/// grid, and the normal of a sharp edge leaves its faces slowly; a fixed height safe for all of them (a
-/// voxel) is the largest error of tracing through a grid, these are a tenth of it. Cost: 1 to 6 map()
-/// calls a surfel.
+/// Finds start heights for rays along the normals: where the field is at least `clearance`, but at most `highest`.
+/// A surfel is on the true surface, not on the interpolated surface of the grid, and the normal at a sharp edge
+/// leaves its faces slowly. A fixed height that is safe for all surfels (a voxel) would be the largest error of
+/// tracing through a grid; these heights are a tenth of that. Cost: 1 to 6 map() calls per surfel.
 template <Field F>
-void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest,
-                      float* heights) {
+void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest, float* heights) {
     ProbeBatch probes;
     SurfelBatch::Values distances;
-    std::array<std::uint8_t, SurfelBatch::capacity> low; // the surfels that are to rise
+    std::array<std::uint8_t, SurfelBatch::capacity> low; // surfels that still need a larger height
     std::size_t count = surfels.count;
     std::iota(low.begin(), low.begin() + count, std::uint8_t{0});
     std::fill_n(heights, count, clearance);
@@ -43,25 +41,24 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
     }
 }
 
-/// Where a ray that met nothing is done: a miss further out costs steps for nothing. Fields without an end show
-/// what is behind the horizon edge-on, less than 1/horizon of the hemisphere.
+/// The ray length after which a miss is certain or negligible; more steps would be wasted. Whatever an unbounded
+/// field has beyond the horizon is seen edge-on and covers less than 1/horizon of the hemisphere.
 template <Field F>
 float longest_ray(const F& field, float radius) {
     constexpr float horizon = 100.0f;
     return std::min({radius, 2.0f * extent(field), horizon});
 }
 
-/// Visibility along `rays` directions, low-discrepancy, rotated for each surfel by a hash of its position:
+/// Visibility along `rays` low-discrepancy directions, rotated for each surfel by a hash of its position:
 ///
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
-/// V = 0 where the ray meets the surface within the radius. The bent normal is the mean of the open ones,
-/// weighted by cos θ in both. Source: "04 Ambient Occlusion", lecture notes. Rays start where the field answers
-/// a tenth of a voxel, or 1e-4 for exact fields. Cost: 1 to 6, and rays × 5–20 map() calls a
-/// surfel.
+/// V = 0 if the ray hits the surface within the radius, else 1. The bent normal is the normalised mean of the open
+/// directions, weighted by cos θ in both forms. Rays start where the field is a tenth of a voxel, or 1e-4 in exact
+/// fields. Source: lecture notes (aolecture). Cost: 1 to 6, plus rays × 5–20, map() calls per surfel.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
-    int rays = 64;       ///< a surfel, >= 1
+    int rays = 64;       ///< per surfel, >= 1
     bool cosine_weighted = true;
     std::uint32_t seed = 0;
 
@@ -71,9 +68,9 @@ struct Traced {
     static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
     static constexpr std::string_view cost = "1-6 + rays (64) x 5-20";
     static constexpr std::string_view good =
-        "tends to exact rays as rays and voxels do; needs no mesh; gives bent normals";
+        "converges to exact rays with more rays and finer voxels; needs no mesh; gives bent normals";
     static constexpr std::string_view bad =
-        "the dearest on grids; noise of 1/rays^0.75; blunt within a voxel";
+        "the slowest method on grids; noise of 1/rays^0.75; blurs detail below a voxel";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 
@@ -81,14 +78,14 @@ struct Traced {
         return std::array{
             parameter<&Traced::rays>("rays", 1, 1 << 20, "rays", "in the hemisphere"),
             parameter<&Traced::cosine_weighted>("cosine_weighted", 0, 1, "",
-                                                "more rays along the normal, instead of as many everywhere"),
-            parameter<&Traced::seed>("seed", 0, 0xffffffffu, "", "of the directions"),
+                                                "more rays near the normal instead of uniform directions"),
+            parameter<&Traced::seed>("seed", 0, 0xffffffffu, "", "random seed of the directions"),
         };
     }
 
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const {
-        // In voxels for grids; for exact fields the contract of the reference, 1e-4 of the diagonal.
+        // A tenth of a voxel on grids; Exact::offset, as in the reference, in exact fields.
         const float voxel = resolution(field);
         const float clearance = std::max(0.1f * voxel, 1e-4f);
         TraceOptions options;
@@ -120,8 +117,7 @@ struct Traced {
             const float shift_u = unit_interval(h), shift_v = unit_interval(hash(h));
             for (int r = 0; r < rays; ++r) {
                 const Vec2 uv = fibonacci_point(r, rays, shift_u, shift_v);
-                const Vec3 local =
-                    cosine_weighted ? cosine_hemisphere(uv.x, uv.y) : uniform_hemisphere(uv.x, uv.y);
+                const Vec3 local = cosine_weighted ? cosine_hemisphere(uv.x, uv.y) : uniform_hemisphere(uv.x, uv.y);
                 owner[batch.count] = static_cast<std::uint8_t>(i);
                 weight[batch.count] = cosine_weighted ? 1.0f : 2.0f * local.z;
                 batch.push_back({origin, basis.to_world(local)}, 0.0f);

@@ -9,23 +9,24 @@
 namespace alcove {
 namespace {
 
-/// Voxels to the probes that tell how the field runs through a place, and that a ray goes on from there.
+/// Voxels from a hit to the probes for the local slope, and to the point from where a ray continues.
 constexpr float nearness = 0.1f;
 
-/// Of steps toward the surface: a tenth less time where a plain is seen at a grazing angle, a twentieth more elsewhere.
+/// Over-relaxation of the steps: a tenth faster on planes seen at a grazing angle, a twentieth slower elsewhere.
 constexpr float relaxation = 1.4f;
 
-/// A distance changes as much as the way. Across a jump it changes more, and the zero there is no surface.
-constexpr float steepest_slope = 1.15f;
+/// A distance changes no faster than the position, up to interpolation. A steeper change is a jump, whose zero is not
+/// a surface.
+constexpr float max_slope = 1.15f;
 
-/// Where the field is flatter, or its direction close by and a little in front differ more than by this
-/// cosine, the place is that of a crease, or within a jump.
-constexpr float flattest_slope = 0.8f, least_agreement = 0.97f;
+/// If the slope is smaller, or if the gradients at a hit and a little in front of it differ by more than this cosine,
+/// the hit is on a crease or inside a jump.
+constexpr float min_slope = 0.8f, min_agreement = 0.97f;
 
-/// Voxels between the zero within a jump and the face in front of it.
-constexpr float widest_jump = 1.5f;
+/// Maximum distance in voxels between the zero inside a jump and the face in front of it.
+constexpr float max_jump = 1.5f;
 
-/// Where a ray is inside a box.
+/// The range of a ray inside a box.
 struct Span {
     double enter = 0.0, leave = std::numeric_limits<double>::infinity();
 
@@ -51,8 +52,8 @@ Vec3 normalized(const Vec3& v) {
     return length > 0.0f ? v / length : Vec3(0.0f);
 }
 
-/// The unit normal on the eye's side. One that points away is mirrored in the plane across the ray, which is
-/// continuous at silhouettes, where smoothing makes it lean over.
+/// The unit normal on the eye's side. A normal that points away is mirrored in the plane perpendicular to the ray. This
+/// is continuous at silhouettes, where smoothing tilts normals away.
 Vec3 facing(const Vec3& gradient, const Vec3& direction) {
     const float length = glm::length(gradient);
     if (!(length > 0.0f) || !std::isfinite(length))
@@ -72,10 +73,9 @@ RayPrecision::RayPrecision(float resolution)
 CameraRays::CameraRays(const Renderable& renderable, const Camera& camera, int samples)
     : renderable_(renderable), field_(renderable.field), camera_(camera), frame_(renderable.frame),
       precision_(resolution(renderable.field)), two_sided_(two_sided(renderable.field)) {
-    // What is small beside something coarse is not stepped over.
+    // Keeps steps sized for a coarse part from skipping a finer one.
     for (const Part& part : renderable.parts)
-        precision_.shortest_step =
-            std::min(precision_.shortest_step, std::max(0.1f * resolution(part.field), 1e-4f));
+        precision_.shortest_step = std::min(precision_.shortest_step, std::max(0.1f * resolution(part.field), 1e-4f));
     eye_ = (camera.eye() - frame_.center) / frame_.diagonal;
     low_ = (renderable.box.min - frame_.center) / frame_.diagonal - Vec3d(precision_.slack);
     high_ = (renderable.box.max - frame_.center) / frame_.diagonal + Vec3d(precision_.slack);
@@ -97,18 +97,15 @@ CameraRays::GroundHit CameraRays::meet_ground(const Vec3d& ray) const {
             continue;
         const double distance = height / approach;
         if (glm::length(eye_ + distance * ray) < double(ground.gone))
-            nearest = {distance,
-                       static_cast<ObjectId>(std::max<std::size_t>(1, renderable_.parts.size()) + i + 1)};
+            nearest = {distance, static_cast<ObjectId>(std::max<std::size_t>(1, renderable_.parts.size()) + i + 1)};
     }
     return nearest;
 }
 
 void CameraRays::set_ground(const Vec3d& ray, const GroundHit& ground, std::size_t at, Hits& hits) const {
-    hits.surfels[at] = {Vec3(eye_ + ground.distance * ray),
-                        ground_of(renderable_, ground.object)->plane.normal};
+    hits.surfels[at] = {Vec3(eye_ + ground.distance * ray), ground_of(renderable_, ground.object)->plane.normal};
     hits.objects[at] = ground.object;
-    hits.depths[at] =
-        static_cast<float>(ground.distance * frame_.diagonal * glm::dot(ray, camera_.forward()));
+    hits.depths[at] = static_cast<float>(ground.distance * frame_.diagonal * glm::dot(ray, camera_.forward()));
 }
 
 void CameraRays::trace(const PixelRegion& region, std::size_t begin, std::size_t end, Hits& hits) const {
@@ -122,7 +119,7 @@ void CameraRays::trace(const PixelRegion& region, std::size_t begin, std::size_t
                          std::min(tile_side, region.height - y)});
         cones.push_back(cone_around(tiles.back()));
     }
-    // Behind a sheet distances are less sure than in front of it.
+    // Distances are less accurate behind a sheet than in front of it.
     march_cones(field_, eye_, cones, furthest_, two_sided_ ? precision_.slack : precision_.voxel);
     Batch rays;
     for (std::size_t i = 0; i < tiles.size(); ++i)
@@ -144,10 +141,9 @@ void CameraRays::trace_tile(const PixelRegion& tile, const PixelRegion& region, 
     const auto samples = within_.size();
     for (int y = tile.y; y < tile.y + tile.height; ++y)
         for (int x = tile.x; x < tile.x + tile.width; ++x) {
-            std::size_t at =
-                (static_cast<std::size_t>(y - region.y) * static_cast<std::size_t>(region.width) +
-                 static_cast<std::size_t>(x - region.x)) *
-                samples;
+            std::size_t at = (static_cast<std::size_t>(y - region.y) * static_cast<std::size_t>(region.width) +
+                              static_cast<std::size_t>(x - region.x)) *
+                             samples;
             for (const Vec2& place : within_) {
                 hits.surfels[at] = {Vec3(0.0f), Vec3(0.0f)};
                 hits.objects[at] = no_object;
@@ -156,19 +152,19 @@ void CameraRays::trace_tile(const PixelRegion& tile, const PixelRegion& region, 
                 if (start < furthest_ || !renderable_.grounds.empty()) {
                     const Vec3d ray = camera_.direction(x + double(place.x), y + double(place.y));
                     const GroundHit ground = meet_ground(ray);
-                    // Replaced by what is met in front of it.
+                    // Overwritten later by any hit in front of it.
                     if (ground.object != no_object)
                         set_ground(ray, ground, at, hits);
                     Span span(eye_, ray, low_, high_);
                     span.enter = std::max(span.enter, start);
                     span.leave = std::min(span.leave, ground.distance);
                     if (!span.empty()) {
-                        // All rays of a batch end at the same length, so each begins where that makes it leave
-                        // the box. Counting from there, not from the eye, keeps single precision enough for any
-                        // eye.
+                        // All rays of a batch end at length far_, so the origin is moved such that each ray leaves
+                        // the box there. Measuring from this origin keeps single precision sufficient, however far
+                        // away the eye is.
                         const double before = span.leave - far_;
-                        rays.add(Vec3(eye_ + before * ray), Vec3(ray),
-                                 static_cast<float>(span.enter - before), before, at);
+                        rays.add(Vec3(eye_ + before * ray), Vec3(ray), static_cast<float>(span.enter - before), before,
+                                 at);
                         if (rays.count == RayBatch::capacity)
                             flush(rays, hits);
                     }
@@ -178,7 +174,7 @@ void CameraRays::trace_tile(const PixelRegion& tile, const PixelRegion& region, 
         }
 }
 
-/// Sets what the rays meet, and takes them out of the batch.
+/// Computes the hits of the rays and empties the batch.
 void CameraRays::flush(Batch& rays, Hits& hits) const {
     const auto owner = rays.owner;
     const std::size_t count = rays.count;
@@ -188,11 +184,11 @@ void CameraRays::flush(Batch& rays, Hits& hits) const {
         name_parts({owner.data(), count}, hits);
 }
 
-/// Tells of each hit of the field which part it is of: the one whose surface is nearest. At most a batch of them.
-void CameraRays::name_parts(std::span<const std::size_t> places_in_hits, Hits& hits) const {
+/// Sets the object of each hit of the field to the part with the nearest surface. Takes at most one batch of hits.
+void CameraRays::name_parts(std::span<const std::size_t> hit_indices, Hits& hits) const {
     Places places;
     std::array<std::size_t, RayBatch::capacity> owner;
-    for (const std::size_t at : places_in_hits)
+    for (const std::size_t at : hit_indices)
         if (hits.objects[at] == 1) {
             owner[places.count] = at;
             places.add(hits.surfels[at].position);
@@ -221,13 +217,13 @@ void CameraRays::meet(Batch& rays, Hits& hits) const {
             set_sharpened(field_, met, i, gradient[i], 1, hits);
         return;
     }
-    // More jumps than the two of a thin wall are only met where faces cross; the last is taken for a surface.
+    // A thin wall has two jumps; more occur only where faces cross. The last attempt accepts its hit as a surface.
     constexpr int attempts = 6;
     for (int attempt = 1; attempt <= attempts && rays.count > 0; ++attempt)
         rays = meet_two_sided(rays, attempt == attempts, hits);
 }
 
-/// Sets what the rays meet, each as the part whose surface is nearest has it: another may be coarser.
+/// Sets the hits, each refined with the part whose surface is nearest, because other parts may be coarser.
 void CameraRays::meet_parts(Batch& met, Hits& hits) const {
     const std::size_t parts = renderable_.parts.size();
     const Places all = places(met);
@@ -258,15 +254,15 @@ void CameraRays::meet_parts(Batch& met, Hits& hits) const {
     }
 }
 
-/// Sets what the rays meet, and returns those to trace further: from behind a sheet, distances jump before
-/// its face is reached. What is clearly a jump is passed; what may be one is kept unless the ray leaves a
-/// face right behind it.
+/// Sets the hits and returns the rays to trace further: for a ray from behind a sheet, distances jump before it reaches
+/// the face. A hit that is clearly a jump is skipped. A hit that may be one is kept unless the ray leaves a face right
+/// behind it.
 CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits) const {
     const Batch met = traced(rays, hits);
     const float voxel = precision_.voxel, near = nearness * voxel;
-    const Values missing = distances(places(met));
+    const Values error = distances(places(met));
     const Gradients slope = differences(field_, places(met), near);
-    // The cells of a face hold its distances; differences around a place on it would reach behind them.
+    // Distances are valid in the cells of a face; differences around a point on the face would reach behind them.
     Places in_front;
     for (std::size_t i = 0; i < met.count; ++i)
         in_front.add(met.place(i) + precision_.difference * normalized(slope[i]));
@@ -276,29 +272,29 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
     Batch further;
     for (std::size_t i = 0; i < met.count; ++i) {
         const float start = met.travelled[i] + near;
-        if (distance[i] > steepest_slope * precision_.difference && !last) {
+        if (distance[i] > max_slope * precision_.difference && !last) {
             further.add(met, i, start, 0.0f);
             continue;
         }
         const Vec3 normal = normalized(gradient[i]);
         const float along = glm::dot(normal, met.direction(i));
-        const bool smooth = glm::length(slope[i]) > flattest_slope * 2.0f * near &&
-                            glm::dot(normalized(slope[i]), normal) > least_agreement;
-        const bool doubtful = !smooth || std::fabs(missing[i]) > 0.5f * near;
-        // Only what is smooth may lean away at a silhouette.
+        const bool smooth =
+            glm::length(slope[i]) > min_slope * 2.0f * near && glm::dot(normalized(slope[i]), normal) > min_agreement;
+        const bool uncertain = !smooth || std::fabs(error[i]) > 0.5f * near;
+        // Only a smooth surface can tilt away at a silhouette.
         const bool behind = (smooth ? glm::dot(slope[i], met.direction(i)) : along) > 0.0f;
-        const ObjectId so_far = hits.objects[met.owner[i]];
-        if (so_far != 1 || (!doubtful && behind))
+        const ObjectId previous = hits.objects[met.owner[i]];
+        if (previous != 1 || (!uncertain && behind))
             set(met, i, behind ? -normal : normal, 1, hits);
-        if (doubtful) {
-            const float end = start + widest_jump * voxel / std::max(std::fabs(along), 0.1f);
+        if (uncertain) {
+            const float end = start + max_jump * voxel / std::max(std::fabs(along), 0.1f);
             further.add(met, i, start, end - far_);
         }
     }
     return further;
 }
 
-/// Those of the rays that meet the surface, up to there.
+/// The rays that hit the surface, advanced to their hits.
 CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
     const Values start = rays.travelled;
     alcove::trace(field_, rays,
@@ -318,7 +314,7 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
             met.add(rays, i, rays.travelled[i], 0.0f);
         }
 
-    // From behind, distances grow along the ray.
+    // Seen from behind, distances grow along the ray.
     Values sign;
     sign.fill(1.0f);
     if (two_sided_) {
@@ -336,10 +332,10 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
     return met;
 }
 
-/// Sets a hit of a field, moved to where a sharp edge is unless it is moved onto triangles anyway. The gradient is one of
-/// differences().
-void CameraRays::set_sharpened(const AnyField& field, Batch& met, std::size_t i, const Vec3& gradient,
-                               ObjectId object, Hits& hits) const {
+/// Sets a hit of a field, moved onto a sharp edge if there is one; not needed if hits are snapped to triangles anyway.
+/// `gradient` is the result of differences().
+void CameraRays::set_sharpened(const AnyField& field, Batch& met, std::size_t i, const Vec3& gradient, ObjectId object,
+                               Hits& hits) const {
     if (!renderable_.mesh) {
         const float width = 2.0f * RayPrecision(resolution(field)).difference;
         if (const auto further = meet_crease(field, met.place(i), gradient / width, met.direction(i)))
@@ -348,8 +344,7 @@ void CameraRays::set_sharpened(const AnyField& field, Batch& met, std::size_t i,
     set(met, i, gradient, object, hits);
 }
 
-void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, ObjectId object,
-                     Hits& hits) const {
+void CameraRays::set(const Batch& rays, std::size_t i, const Vec3& gradient, ObjectId object, Hits& hits) const {
     const Vec3 direction = rays.direction(i);
     hits.surfels[rays.owner[i]] = {rays.place(i), facing(gradient, direction)};
     hits.objects[rays.owner[i]] = object;
@@ -370,7 +365,7 @@ CameraRays::Values CameraRays::distances(const Places& places) const {
     return values;
 }
 
-/// Differences of the field along the axes, over twice h.
+/// Central differences of the field along the axes, over a distance of 2h; not divided by it.
 CameraRays::Gradients CameraRays::differences(const AnyField& field, const Places& places, float h) {
     Gradients gradient;
     Values above, below;

@@ -1,4 +1,4 @@
-/// The rays of a camera, from pixels to the surfels they meet.
+/// Traces camera rays from pixels to the surfels they hit.
 #pragma once
 
 #include "alcove/field/detail/trace.h"
@@ -13,25 +13,24 @@ namespace alcove {
 
 /// A rectangle of the image.
 struct PixelRegion {
-    int x = 0, y = 0; ///< of its upper left pixel
+    int x = 0, y = 0; ///< upper left pixel
     int width = 0, height = 0;
 
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-    /// Squares that cover it, those at its right and lower edge cut.
+    /// Number of squares of side `side` that cover it; those at the right and lower edge are cut.
     std::size_t tiles(int side) const {
         return static_cast<std::size_t>((width + side - 1) / side) *
                static_cast<std::size_t>((height + side - 1) / side);
     }
 };
 
-/// What samples of an image met, one after the other.
+/// The hits of image samples, one entry per sample.
 struct Hits {
-    std::vector<Surfel>
-        surfels;               ///< unit space, normals toward the eye; without a normal where nothing was met
-    std::vector<float> depths; ///< along the view axis, scene units
-    std::vector<ObjectId> objects;
-    std::vector<float> painted; ///< in [0, 1]; empty where nothing is painted
-    std::vector<float> steps;   ///< map() calls on the way of each ray; empty where nobody asks
+    std::vector<Surfel> surfels;   ///< unit space, normals toward the eye; without a normal if the ray missed
+    std::vector<float> depths;     ///< along the view axis, scene units
+    std::vector<ObjectId> objects; ///< no_object if the ray missed
+    std::vector<float> painted;    ///< in [0, 1]; empty if nothing is painted
+    std::vector<float> steps;      ///< map() calls along each ray; empty if not requested
 
     void resize(std::size_t samples, bool with_steps) {
         surfels.resize(samples);
@@ -41,50 +40,50 @@ struct Hits {
     }
 };
 
-/// Lengths in unit space that follow from the resolution of a field.
+/// Tolerances in unit space, derived from the resolution of a field.
 struct RayPrecision {
     float voxel;         ///< 0 for exact fields
-    float hit_distance;  ///< of a two-sided field; others are met where their sign changes
+    float hit_distance;  ///< for two-sided fields; others are hit where the sign changes
     float shortest_step; ///< of a ray
-    float difference;    ///< between a point and each probe of its normal
-    float slack;         ///< around the box: behind a sheet, distances jump up to two voxels off its faces
+    float difference;    ///< half width of the central differences for normals
+    float slack;         ///< margin around the box: behind a sheet, distances jump up to two voxels off its faces
 
     explicit RayPrecision(float resolution);
 };
 
-/// Rays from the eye through the same `samples` places of every pixel, sphere-traced inside the box of the
+/// Rays from the eye through the same `samples` positions of every pixel, sphere-traced inside the box of the
 /// renderable.
 ///
-/// The surface is where the field crosses zero, found to a hundredth of a voxel off its edges and outlines, and to less than a
-/// voxel at edges; normals are
-/// central differences of the part that is met, mirrored to the eye's side where they lean away. Of a two-sided field they are
-/// taken in front of its faces, whichever side is seen: behind them distances jump. Grounds are met exactly. Keeps
-/// references to both arguments. Const use is thread-safe.
+/// The surface is the zero crossing of the field, found to less than a voxel at edges and to a hundredth of a voxel
+/// away from edges and outlines. Normals are central differences of the part that is hit, mirrored toward the eye if
+/// they point away. In a two-sided field they are evaluated in front of the face, whichever side is seen, because
+/// distances jump behind it. Grounds are intersected exactly. Keeps references to both arguments. `const` use is
+/// thread-safe.
 class CameraRays {
   public:
     CameraRays(const Renderable& renderable, const Camera& camera, int samples);
 
-    /// Pixels are traced in tiles of this side, whose rays start together.
+    /// Side in pixels of a tile, whose rays share a start distance.
     static constexpr int tile_side = 8;
 
-    /// Traces the tiles [begin, end) of a region, counted row by row from its upper left, into `hits` of the region:
-    /// those of a pixel after each other, pixels row by row. Cost: up to 48 map() calls a tile, 3–15 a ray near the
-    /// surface and 10 a hit; 22 a hit of a two-sided field; 99 more where one is beside an edge that is seen at a grazing angle.
+    /// Traces the tiles [begin, end) of a region, counted row by row from its upper left. `hits` is that of the whole
+    /// region: pixels row by row, with the samples of a pixel in sequence. Cost in map() calls: up to 48 per tile,
+    /// 3–15 per ray near the surface, and 10 per hit (22 in a two-sided field); 99 more per hit near an edge seen at a
+    /// grazing angle.
     void trace(const PixelRegion& region, std::size_t begin, std::size_t end, Hits& hits) const;
 
   private:
     using Values = RayBatch::Values;
     struct Batch : RayBatch {
-        std::array<double, capacity> before;     // length of the ray in front of its origin in the batch
-        std::array<std::size_t, capacity> owner; // place in the hits
+        std::array<double, capacity> before;     // distance from the eye to the origin of the ray in the batch
+        std::array<std::size_t, capacity> owner; // index into the hits
 
-        void add(const Vec3& origin, const Vec3& direction, float start, double way_before,
-                 std::size_t place) {
-            before[count] = way_before;
-            owner[count] = place;
+        void add(const Vec3& origin, const Vec3& direction, float start, double from_eye, std::size_t index) {
+            before[count] = from_eye;
+            owner[count] = index;
             push_back({origin, direction}, start);
         }
-        /// A ray of another batch, counted from `ahead` on.
+        /// Adds a ray of another batch, with its origin moved ahead by `ahead`.
         void add(const Batch& other, std::size_t i, float start, float ahead) {
             add(other.origin(i) + ahead * other.direction(i), other.direction(i), start - ahead,
                 other.before[i] + static_cast<double>(ahead), other.owner[i]);
@@ -104,15 +103,14 @@ class CameraRays {
     };
     using Gradients = std::array<Vec3, RayBatch::capacity>;
 
-    /// Where a ray meets a ground first.
+    /// The first hit of a ray on a ground.
     struct GroundHit {
         double distance = std::numeric_limits<double>::infinity(); ///< unit space
         ObjectId object = no_object;
     };
 
     Cone cone_around(const PixelRegion& tile) const;
-    void trace_tile(const PixelRegion& tile, const PixelRegion& region, double start, Batch& rays,
-                    Hits& hits) const;
+    void trace_tile(const PixelRegion& tile, const PixelRegion& region, double start, Batch& rays, Hits& hits) const;
     void flush(Batch& rays, Hits& hits) const;
     GroundHit meet_ground(const Vec3d& ray) const;
     void set_ground(const Vec3d& ray, const GroundHit& ground, std::size_t at, Hits& hits) const;
@@ -124,8 +122,8 @@ class CameraRays {
     static Places places(const Batch& rays, float ahead = 0.0f);
     Values distances(const Places& places) const;
     static Gradients differences(const AnyField& field, const Places& places, float h);
-    void set_sharpened(const AnyField& field, Batch& met, std::size_t i, const Vec3& gradient,
-                       ObjectId object, Hits& hits) const;
+    void set_sharpened(const AnyField& field, Batch& met, std::size_t i, const Vec3& gradient, ObjectId object,
+                       Hits& hits) const;
     void set(const Batch& rays, std::size_t i, const Vec3& gradient, ObjectId object, Hits& hits) const;
 
     const Renderable& renderable_;
@@ -135,10 +133,10 @@ class CameraRays {
     RayPrecision precision_;
     bool two_sided_;
     Vec3d eye_, low_, high_;   // unit space
-    float far_;                // longer than any way through the box
-    double nearest_;           // no ray is in the box before this length, unit space
-    double furthest_;          // nor after this one
-    std::vector<Vec2> within_; // the places of the samples in a pixel
+    float far_;                // longer than any ray segment inside the box
+    double nearest_;           // distance from the eye to the box, unit space
+    double furthest_;          // largest distance from the eye to a point of the box, unit space
+    std::vector<Vec2> within_; // positions of the samples in a pixel
 };
 
 }

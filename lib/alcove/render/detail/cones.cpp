@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t capacity = 256;
 
-/// Of those that are left, [0, count), those that may go on come first.
+/// Marches at most `capacity` cones.
 void march(const AnyField& field, const Vec3d& eye, std::span<Cone> cones, double far, float margin) {
     std::array<float, capacity> x, y, z, distance;
     std::array<std::uint16_t, capacity> active;
@@ -16,8 +16,8 @@ void march(const AnyField& field, const Vec3d& eye, std::span<Cone> cones, doubl
     const bool both_sides = two_sided(field);
     for (std::size_t i = 0; i < count; ++i)
         active[i] = static_cast<std::uint16_t>(i);
-    constexpr int most_steps = 48;
-    for (int step = 0; step < most_steps && count > 0; ++step) {
+    constexpr int max_steps = 48;
+    for (int step = 0; step < max_steps && count > 0; ++step) {
         for (std::size_t k = 0; k < count; ++k) {
             const Cone& cone = cones[active[k]];
             const Vec3 p(eye + cone.travelled * cone.axis);
@@ -28,10 +28,9 @@ void march(const AnyField& field, const Vec3d& eye, std::span<Cone> cones, doubl
         for (std::size_t k = 0; k < count; ++k) {
             Cone& cone = cones[active[k]];
             const double width = cone.slope * cone.travelled;
-            const double safe =
-                double(both_sides ? std::fabs(distance[k]) : distance[k]) - double(margin) - width;
+            const double safe = double(both_sides ? std::fabs(distance[k]) : distance[k]) - double(margin) - width;
             cone.travelled += std::max(safe, 0.0);
-            // Where little is gained, rays do better by themselves.
+            // When a step gains little, tracing the rays individually is faster.
             constexpr double worthwhile = 0.5;
             active[left] = active[k];
             left += safe > worthwhile * width && cone.travelled < far;

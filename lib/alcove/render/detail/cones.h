@@ -1,4 +1,4 @@
-/// How far all rays of a tile of the image may go at once: cones, marched like rays.
+/// Cone marching: how far all rays of an image tile can advance together.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -7,16 +7,16 @@
 
 namespace alcove {
 
-/// Rays from one point: at the length t along each of them it is no further than slope·t from eye + t·axis.
+/// A cone around rays from one point: at length t, every ray is within slope·t of eye + t·axis.
 struct Cone {
     Vec3d axis;       ///< unit length
     double slope;     ///< > 0
-    double travelled; ///< in: a length before which no ray meets anything; out: the largest that is found
+    double travelled; ///< in: a length before which no ray hits anything; out: the largest such length found
 };
 
-/// Moves cones forward while the field, less a `margin`, is larger than they are wide there; those that pass `far` meet
-/// nothing, and end at a value of at least that. Unit space. The cones are those of J. Amanatides, "Ray tracing with
-/// cones" (1984), marched as rays are in J. C. Hart, "Sphere tracing" (1996). Cost: up to 48 map() calls a cone.
+/// Advances the cones (Amanatides 1984) by sphere tracing (Hart 1996) while the field minus `margin` exceeds their
+/// width. Cones that pass `far` hit nothing and end at a value of at least `far`. Unit space. Cost: up to 48 map()
+/// calls per cone.
 void march_cones(const AnyField& field, const Vec3d& eye, std::span<Cone> cones, double far, float margin);
 
 }

@@ -10,29 +10,30 @@
 namespace alcove {
 namespace {
 
-/// Cosine at which rays meet a surface. Edges are rounded by up to .3 voxel, a multiple of it along such rays.
+/// Cosine of incidence below which a hit is corrected. Interpolation rounds edges by up to 0.3 voxels, and moves hits
+/// of such rays by a multiple of that.
 constexpr float grazing = 0.4f;
 
-/// Gradients that are shorter tell of sides that meet within the differences.
+/// A shorter gradient means that the sides of an edge meet within the central differences.
 constexpr float steady_slope = 0.95f;
 
-/// A ray may have passed over an edge where, this many voxels before the hit, the distance was by so many voxels another
-/// than that to the plane of the hit.
-constexpr float bend_reach = 1.5f, least_bend = 0.15f;
+/// A ray may have passed an edge if, bend_reach voxels before the hit, the distance differed by more than min_bend
+/// voxels from that to the plane of the hit.
+constexpr float bend_reach = 1.5f, min_bend = 0.15f;
 
-/// Voxels from a hit to where the sides of an edge are looked for: beyond the cells that the edge passes through.
+/// Voxels from a hit to the samples that search for the sides of an edge: beyond the cells that the edge crosses.
 constexpr float side_reach = 2.25f;
 
-/// Half the width of differences, voxels, and how far the length of a gradient may be from 1 where all distances
-/// around are those to one plane.
+/// Half width of the central differences, voxels; and the tolerance of the gradient length, which is 1 where all
+/// distances around are those to one plane.
 constexpr float difference = 0.25f, flatness = 0.002f;
 
-/// Cosines between sides of an edge, and between places of one side; how far a plane may miss another place of its
-/// side, voxels.
-constexpr float least_turn = 0.9f, same_side = 0.995f, misfit = 0.05f;
+/// Largest cosine between the normals of two sides, and smallest cosine between the normals of one side; largest
+/// error of the planes at a sample, voxels.
+constexpr float max_turn_cosine = 0.9f, same_side = 0.995f, misfit = 0.05f;
 
-/// Voxels along the ray that a hit may be moved.
-constexpr float furthest_move = 4.0f;
+/// Largest move of a hit along its ray, voxels.
+constexpr float max_move = 4.0f;
 
 struct Side {
     Vec3 normal;
@@ -41,7 +42,7 @@ struct Side {
     float distance(const Vec3& p) const { return glm::dot(normal, p) - offset; }
 };
 
-/// What the field is at a place, relative to the hit.
+/// The field at a place, relative to the hit.
 struct Sample {
     Vec3 place, gradient;
     float distance;
@@ -53,10 +54,10 @@ struct Sample {
     }
 };
 
-/// The planes of an edge or a corner, which bound the inside, or else the outside.
+/// The planes of a convex or concave edge or corner.
 class Crease {
   public:
-    /// Nothing where the samples are not of an edge.
+    /// Empty if the samples do not fit an edge.
     static std::optional<Crease> through(std::span<const Sample> samples, float voxel) {
         Crease crease;
         std::vector<Sample> flat;
@@ -65,7 +66,7 @@ class Crease {
         for (const Sample& sample : flat) {
             const Side side = sample.side();
             const auto same = std::find_if(crease.sides_.begin(), crease.sides_.end(), [&](const Side& s) {
-                return glm::dot(s.normal, side.normal) > least_turn;
+                return glm::dot(s.normal, side.normal) > max_turn_cosine;
             });
             if (same == crease.sides_.end())
                 crease.sides_.push_back(side);
@@ -84,17 +85,17 @@ class Crease {
         return std::nullopt;
     }
 
-    /// Where a ray through the hit gets inside, if it does between -far and far.
+    /// The distance along a ray through the hit at which it enters the solid, if between -far and far.
     std::optional<float> meet(const Vec3& direction, float far) const {
         float enter = convex_ ? -far : far, leave = far;
         for (const Side& side : sides_) {
             const float along = glm::dot(side.normal, direction);
-            const float way = side.offset / along;
+            const float t = side.offset / along;
             const bool starts_inside = side.distance(-far * direction) <= 0.0f;
             if (along < 0.0f)
-                enter = convex_ ? std::max(enter, way) : std::min(enter, way);
+                enter = convex_ ? std::max(enter, t) : std::min(enter, t);
             else if (convex_ && along > 0.0f)
-                leave = std::min(leave, way);
+                leave = std::min(leave, t);
             if (convex_ ? along == 0.0f && !starts_inside : starts_inside)
                 return std::nullopt;
         }
@@ -115,8 +116,8 @@ class Crease {
 
 constexpr std::size_t first_directions = 4, all_directions = 14;
 
-/// Toward the corners and the faces of a cube. The corners of a tetrahedron are the first: beside an edge, two of
-/// them at least are above its sides.
+/// Directions to the corners and faces of a cube. The first four are the corners of a tetrahedron: near an edge, at
+/// least two of them are above its sides.
 std::array<Vec3, all_directions> around() {
     std::array<Vec3, all_directions> directions;
     std::size_t count = 0;
@@ -132,9 +133,8 @@ std::array<Vec3, all_directions> around() {
     return directions;
 }
 
-std::vector<Sample> sample(const AnyField& field, const Vec3& hit, std::span<const Vec3> directions,
-                           float voxel) {
-    constexpr std::size_t probes = 7; // the place itself, and one to each side along the axes
+std::vector<Sample> sample(const AnyField& field, const Vec3& hit, std::span<const Vec3> directions, float voxel) {
+    constexpr std::size_t probes = 7; // the place itself and two along each axis
     const float h = difference * voxel;
     std::array<float, probes * all_directions> x, y, z, distance;
     std::vector<Sample> samples;
@@ -157,17 +157,15 @@ std::vector<Sample> sample(const AnyField& field, const Vec3& hit, std::span<con
     return samples;
 }
 
-/// Whether a ray got to a place where the surface is smooth otherwise than over a plane.
-bool passed_a_bend(const AnyField& field, const Vec3& hit, const Vec3& direction, float approach,
-                   float voxel) {
+/// Whether the ray passed a bend before the hit: whether the distance before the hit was not that to its plane.
+bool passed_a_bend(const AnyField& field, const Vec3& hit, const Vec3& direction, float approach, float voxel) {
     const float reach = bend_reach * voxel;
-    return std::fabs(field.map(hit - reach * direction) - reach * approach) > least_bend * voxel;
+    return std::fabs(field.map(hit - reach * direction) - reach * approach) > min_bend * voxel;
 }
 
 }
 
-std::optional<float> meet_crease(const AnyField& field, const Vec3& hit, const Vec3& gradient,
-                                 const Vec3& direction) {
+std::optional<float> meet_crease(const AnyField& field, const Vec3& hit, const Vec3& gradient, const Vec3& direction) {
     const float slope = glm::length(gradient), approach = -glm::dot(gradient, direction) / slope;
     const float voxel = resolution(field);
     if (approach > grazing || !(voxel > 0.0f) || two_sided(field))
@@ -182,7 +180,7 @@ std::optional<float> meet_crease(const AnyField& field, const Vec3& hit, const V
     const std::vector<Sample> others = sample(field, hit, all.subspan(first_directions), voxel);
     samples.insert(samples.end(), others.begin(), others.end());
     const auto crease = Crease::through(samples, voxel);
-    return crease ? crease->meet(direction, furthest_move * voxel) : std::nullopt;
+    return crease ? crease->meet(direction, max_move * voxel) : std::nullopt;
 }
 
 }

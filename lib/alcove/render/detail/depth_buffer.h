@@ -1,4 +1,4 @@
-/// What a camera sees: how far it is, and which way it faces.
+/// Depth and normals of what a camera sees.
 #pragma once
 
 #include "alcove/render/camera.h"
@@ -10,22 +10,22 @@ namespace alcove {
 
 struct DepthBuffer {
     Camera camera;
-    std::vector<float>
-        depth; ///< along the view axis, scene units, at the centre of each pixel; far_depth where nothing is
-    std::vector<Vec3> normal; ///< scene directions, unit length; zero where nothing is
+    /// Along the view axis at the centre of each pixel, scene units; far_depth on the background.
+    std::vector<float> depth;
+    std::vector<Vec3> normal; ///< scene directions, unit length; zero on the background
 
     std::size_t width() const { return static_cast<std::size_t>(camera.size().width); }
     std::size_t height() const { return static_cast<std::size_t>(camera.size().height); }
     bool seen(std::size_t pixel) const { return normal[pixel] != Vec3(0.0f); }
-    /// The place that a pixel shows, from the eye, scene units.
+    /// The point that a pixel shows, relative to the eye, scene units.
     Vec3d from_eye(std::size_t pixel) const {
-        const Vec3d way = camera.direction(static_cast<double>(pixel % width()) + 0.5,
-                                           static_cast<double>(pixel / width()) + 0.5);
-        return double(depth[pixel]) / glm::dot(way, camera.forward()) * way;
+        const Vec3d direction =
+            camera.direction(static_cast<double>(pixel % width()) + 0.5, static_cast<double>(pixel / width()) + 0.5);
+        return double(depth[pixel]) / glm::dot(direction, camera.forward()) * direction;
     }
 };
 
-/// Cost: that of the rays, one a pixel (camera_rays.h).
+/// Renders the depth buffer. Cost: one camera ray per pixel (camera_rays.h).
 DepthBuffer look(const Renderable& renderable, const Camera& camera);
 
 }

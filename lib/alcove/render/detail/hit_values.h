@@ -1,4 +1,4 @@
-/// What is computed of all samples that meet the surface, before they are shaded.
+/// Computes the channels of all samples that hit the surface, before shading.
 #pragma once
 
 #include "alcove/render/detail/camera_rays.h"
@@ -6,13 +6,13 @@
 
 namespace alcove {
 
-/// A value a sample; empty where no pass needs it.
+/// One value per sample; empty if no pass needs it.
 struct HitValues {
     std::vector<float> ao, convexity, shadow;
 };
 
-/// `surroundings` is what occludes, the eye is in unit space.
-HitValues values_of(const Hits& hits, const Renderable& renderable, const Occluders& surroundings,
-                    const Vec3d& eye, const RenderOptions& options, const Progress& progress);
+/// `surroundings` are the occluders; `eye` is in unit space.
+HitValues values_of(const Hits& hits, const Renderable& renderable, const Occluders& surroundings, const Vec3d& eye,
+                    const RenderOptions& options, const Progress& progress);
 
 }

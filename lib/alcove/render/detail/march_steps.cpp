@@ -12,7 +12,7 @@ std::vector<float> MarchSteps::operator()(const Renderable& renderable, const Ca
     const Vec3d eye = (camera.eye() - renderable.frame.center) / renderable.frame.diagonal;
     const auto width = static_cast<std::size_t>(camera.size().width);
     std::vector<float> ao(width * static_cast<std::size_t>(camera.size().height));
-    // Beyond it nothing is drawn; from a greater distance rays begin there, for the sake of single precision.
+    // Nothing is rendered beyond the horizon. Rays from a more distant eye start there, to preserve single precision.
     constexpr double horizon = 100.0;
     const double before = std::max(0.0, glm::length(eye) - horizon);
     parallel_for(ao.size(), 16 * RayBatch::capacity, [&](std::size_t begin, std::size_t end) {
@@ -21,8 +21,8 @@ std::vector<float> MarchSteps::operator()(const Renderable& renderable, const Ca
             const std::size_t last = std::min(end, first + RayBatch::capacity);
             rays.count = 0;
             for (std::size_t i = first; i < last; ++i) {
-                const Vec3d direction = camera.direction(static_cast<double>(i % width) + 0.5,
-                                                         static_cast<double>(i / width) + 0.5);
+                const Vec3d direction =
+                    camera.direction(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5);
                 rays.push_back({Vec3(eye + before * direction), Vec3(direction)}, 0.0f);
             }
             trace(surroundings, rays,
@@ -32,8 +32,8 @@ std::vector<float> MarchSteps::operator()(const Renderable& renderable, const Ca
                    .max_steps = max_steps,
                    .two_sided = two_sided(surroundings)});
             for (std::size_t k = 0; k < rays.count; ++k)
-                ao[first + k] = std::clamp(
-                    1.0f - static_cast<float>(rays.steps[k]) / static_cast<float>(max_steps - 1), 0.0f, 1.0f);
+                ao[first + k] = std::clamp(1.0f - static_cast<float>(rays.steps[k]) / static_cast<float>(max_steps - 1),
+                                           0.0f, 1.0f);
         }
     });
     return ao;

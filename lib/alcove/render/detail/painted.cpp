@@ -25,9 +25,8 @@ double cross(const Vec3d& a, const Vec3d& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// `corners` are places on the canvas with their depth.
-void draw(const std::array<Vec3d, 3>& corners, const std::array<float, 3>& values, const Vec3& normal,
-          Canvas& canvas) {
+/// Rasterises a triangle. `corners` are canvas coordinates and depth.
+void draw(const std::array<Vec3d, 3>& corners, const std::array<float, 3>& values, const Vec3& normal, Canvas& canvas) {
     const Vec3d &a = corners[0], &b = corners[1], &c = corners[2];
     const double area = cross(b - a, c - a);
     if (!(area != 0.0))
@@ -41,15 +40,15 @@ void draw(const std::array<Vec3d, 3>& corners, const std::array<float, 3>& value
             const double u = cross(b - p, c - p) / area, v = cross(c - p, a - p) / area, w = 1.0 - u - v;
             if (u < 0.0 || v < 0.0 || w < 0.0)
                 continue;
-            // Across the image the inverse of the depth is linear.
+            // 1/depth is linear across the image.
             const double weights[] = {u / a.z, v / b.z, w / c.z};
             const double depth = 1.0 / (weights[0] + weights[1] + weights[2]);
             const std::size_t at = canvas.place(x, y);
             if (depth >= canvas.depth[at])
                 continue;
             canvas.depth[at] = static_cast<float>(depth);
-            canvas.value[at] = static_cast<float>(
-                depth * (weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]));
+            canvas.value[at] =
+                static_cast<float>(depth * (weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]));
             canvas.normal[at] = normal;
         }
 }
@@ -78,8 +77,8 @@ Image resolve(const Canvas& canvas, int samples) {
 
 }
 
-Image paint(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
-            std::span<const float> values, const Camera& camera, int samples) {
+Image paint(std::span<const Vec3d> positions, std::span<const Triangle> triangles, std::span<const float> values,
+            const Camera& camera, int samples) {
     Canvas canvas(camera.size().width * samples, camera.size().height * samples);
     for (const Triangle& triangle : triangles) {
         std::array<Vec3d, 3> corners;

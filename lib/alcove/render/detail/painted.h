@@ -1,4 +1,4 @@
-/// A picture of values on a mesh, without light or grid.
+/// Renders vertex values of a mesh, without lighting and without a grid.
 #pragma once
 
 #include "alcove/render/camera.h"
@@ -8,11 +8,10 @@
 
 namespace alcove {
 
-/// Draws the triangles, from either side, and interpolates a value a vertex between their corners: as `ao` of
-/// the image, with alpha, depth and the normals of the faces. `samples`² places a pixel are averaged. Positions
-/// in scene space; a triangle with a corner behind the eye is left out. Cost: that of the pixels the triangles
-/// cover.
-Image paint(std::span<const Vec3d> positions, std::span<const Triangle> triangles,
-            std::span<const float> values, const Camera& camera, int samples = 3);
+/// Rasterises the triangles, visible from both sides, and interpolates one value per vertex into `ao` of the image;
+/// also fills alpha, depth and face normals. Averages `samples`² samples per pixel. Positions in scene space; skips
+/// triangles with a corner behind the eye. Cost: linear in the pixels that the triangles cover.
+Image paint(std::span<const Vec3d> positions, std::span<const Triangle> triangles, std::span<const float> values,
+            const Camera& camera, int samples = 3);
 
 }

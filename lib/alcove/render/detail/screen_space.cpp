@@ -10,12 +10,12 @@
 namespace alcove {
 namespace {
 
-/// The visibility of one pixel.
+/// Computes the visibility of one pixel.
 class Kernel {
   public:
     Kernel(const ScreenSpace& method, const DepthBuffer& seen, double radius)
         : seen_(seen), lattice_(method.samples), samples_(method.samples), radius_(radius),
-          least_cosine_(std::sin(method.bias * std::numbers::pi_v<float> / 180.0f)) {}
+          min_cosine_(std::sin(method.bias * std::numbers::pi_v<float> / 180.0f)) {}
 
     float operator()(std::size_t pixel) const {
         const Vec3d p = seen_.from_eye(pixel);
@@ -25,33 +25,32 @@ class Kernel {
         int open = 0, counted = 0;
         for (int i = 0; i < samples_; ++i) {
             const Vec3 direction = lattice_.direction(i, turn);
-            if (direction.z <= least_cosine_)
+            if (direction.z <= min_cosine_)
                 continue;
             ++counted;
             const float jitter = unit_interval(hash(random + static_cast<std::uint32_t>(i)));
-            const double way = radius_ * std::sqrt(1.0 - double(jitter));
-            open += !hidden(p + way * Vec3d(basis.to_world(direction)));
+            const double length = radius_ * std::sqrt(1.0 - double(jitter));
+            open += !hidden(p + length * Vec3d(basis.to_world(direction)));
         }
         return counted > 0 ? static_cast<float>(open) / static_cast<float>(counted) : 1.0f;
     }
 
   private:
-    /// Whether something nearer to the eye, and near enough to it, is seen in its place.
+    /// Whether a surface nearer to the eye than q, by less than the radius, hides q.
     bool hidden(const Vec3d& q) const {
         const Vec3d place = seen_.camera.project(seen_.camera.eye() + q);
-        if (!(place.z > 0.0 && place.x >= 0.0 && place.y >= 0.0 &&
-              place.x < static_cast<double>(seen_.width()) && place.y < static_cast<double>(seen_.height())))
+        if (!(place.z > 0.0 && place.x >= 0.0 && place.y >= 0.0 && place.x < static_cast<double>(seen_.width()) &&
+              place.y < static_cast<double>(seen_.height())))
             return false;
-        const auto pixel =
-            static_cast<std::size_t>(place.y) * seen_.width() + static_cast<std::size_t>(place.x);
+        const auto pixel = static_cast<std::size_t>(place.y) * seen_.width() + static_cast<std::size_t>(place.x);
         if (!seen_.seen(pixel))
             return false;
         const double in_front = place.z - depth_at(pixel, q, place.z);
         return in_front > 1e-4 * radius_ && in_front < radius_;
     }
 
-    /// How far what the pixel shows is where the way to q passes through it: on the tangent plane of its centre, unless
-    /// that is seen edge-on.
+    /// Depth of the visible surface on the line from the eye to q: on the tangent plane at the centre of the pixel, or
+    /// the stored depth if that plane is seen edge-on.
     double depth_at(std::size_t pixel, const Vec3d& q, double depth_of_q) const {
         const Vec3d normal(seen_.normal[pixel]);
         const double stored = double(seen_.depth[pixel]), facing = glm::dot(normal, q);
@@ -64,18 +63,18 @@ class Kernel {
     CosineLattice lattice_;
     int samples_;
     double radius_;
-    float least_cosine_;
+    float min_cosine_;
 };
 
-/// The two passes of a separable blur: along rows, along columns.
+/// One pass of a separable blur, along rows or columns.
 class Smoother {
   public:
     Smoother(const ScreenSpace& method, const DepthBuffer& seen, double radius)
         : seen_(seen), bilateral_(static_cast<Blur>(method.blur) == Blur::bilateral),
-          // A tenth of the radius above or below the tangent plane begins to be another surface.
+          // Further than a tenth of the radius from the tangent plane, a point is probably on another surface.
           height_(0.1f * static_cast<float>(radius)),
-          reach_(method.blur_reach * static_cast<float>(radius * static_cast<double>(seen.width()) /
-                                                        seen.camera.screen_window_width())),
+          reach_(method.blur_reach *
+                 static_cast<float>(radius * static_cast<double>(seen.width()) / seen.camera.screen_window_width())),
           places_(seen.depth.size()) {
         for (std::size_t pixel = 0; pixel < places_.size(); ++pixel)
             if (seen.seen(pixel))
@@ -95,7 +94,8 @@ class Smoother {
                 const int reach = static_cast<int>(exact_reach);
                 float sum = 0.0f, total = 0.0f;
                 for (int k = std::max(-reach, -at); k <= std::min(reach, length - 1 - at); ++k) {
-                    const std::size_t other = pixel + static_cast<std::size_t>(k) * step; // wraps backward
+                    const std::size_t other =
+                        pixel + static_cast<std::size_t>(k) * step; // unsigned wrap-around for k < 0
                     if (!seen_.seen(other))
                         continue;
                     const float weight = weight_of(2.0f * static_cast<float>(k) / exact_reach, pixel, other);
@@ -109,21 +109,21 @@ class Smoother {
     }
 
   private:
-    /// `away` is the distance between the pixels in standard deviations, of which the reach is two.
+    /// `away` is the distance between the pixels in standard deviations; the reach is two of them.
     float weight_of(float away, std::size_t pixel, std::size_t other) const {
         if (!bilateral_)
             return std::exp(-0.5f * away * away);
         const Vec3& n = seen_.normal[pixel];
         const float above = glm::dot(n, places_[other] - places_[pixel]) / height_;
-        const float alike = std::max(0.0f, glm::dot(n, seen_.normal[other]));
-        return std::exp(-0.5f * (away * away + above * above)) * alike * alike * alike * alike;
+        const float cosine = std::max(0.0f, glm::dot(n, seen_.normal[other]));
+        return std::exp(-0.5f * (away * away + above * above)) * cosine * cosine * cosine * cosine;
     }
 
     const DepthBuffer& seen_;
     bool bilateral_;
     float height_;             // τ, scene units
     float reach_;              // pixels at depth 1
-    std::vector<Vec3> places_; // from the eye, scene units
+    std::vector<Vec3> places_; // relative to the eye, scene units
 };
 
 }
@@ -145,7 +145,7 @@ std::vector<float> ScreenSpace::operator()(const DepthBuffer& seen, double scene
 }
 
 std::vector<float> ScreenSpace::operator()(const Renderable& renderable, const Camera& camera) const {
-    // What the camera sees tells little of what is further than the scene is large.
+    // The visible surface says little about occluders further away than the size of the scene.
     return (*this)(look(renderable, camera), std::min(double(radius), 1.0) * renderable.frame.diagonal);
 }
 

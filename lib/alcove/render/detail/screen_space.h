@@ -1,4 +1,4 @@
-/// Occlusion from what the camera sees: depth and normals, no map() beyond those of the picture.
+/// Screen-space ambient occlusion: from depth and normals only, without map() calls beyond those of the image.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -11,56 +11,58 @@
 
 namespace alcove {
 
-/// What smooths the noise of few samples.
+/// The filter against the noise of few samples.
 enum class Blur {
     none,
-    gaussian, ///< exp(-s²/2σ²) of the distance s between pixels
-    bilateral, ///< times exp(-h²/2τ²) of the height h of one place above the other's tangent plane, and max(0, n·n')⁴
+    gaussian,  ///< exp(-s²/2σ²), for a distance s between pixels
+    bilateral, ///< times exp(-h²/2τ²), h the height of the other point above the tangent plane, and max(0, n·n')⁴
 };
 
-/// Of each pixel's place p with normal n, in scene units:
+/// For the point p with normal n that a pixel shows, in scene units:
 ///
-///     1 - 1/N Σ [a place nearer to the eye than q_i, by less than the radius, is seen at the pixel of q_i],
+///     1 - 1/N Σ [the pixel of q_i shows a point nearer to the eye than q_i, by less than the radius],
 ///     q_i = p + r_i·dir_i, dir_i·n > sin(bias)
 ///
-/// over cosine-weighted directions turned for each pixel against banding, r_i = radius·√u jittered: more of them far out,
-/// where a sample is behind what hides it. What is seen is taken for the tangent plane of its pixel, so that a plane does
-/// not hide itself. Source: "04 Ambient Occlusion", lecture notes: hemisphere kernel, range and angle checks, rotation,
-/// blur; bilateral weights: C. Tomasi and R. Manduchi, "Bilateral filtering for gray and color images" (1998), with τ a tenth
-/// of the radius. Thread-safe. Cost: N look-ups a pixel, and four times the reach for a blur.
+/// over cosine-weighted directions, rotated per pixel to avoid banding, with jittered r_i = radius·√u. This places more
+/// samples far out, where a sample is behind its occluder. The visible surface is taken as the tangent plane of its
+/// pixel, so that a plane does not occlude itself.
+///
+/// Source: lecture notes (aolecture) for the hemisphere kernel, range and angle checks, rotation and blur; Tomasi and
+/// Manduchi (1998) for the bilateral weights, with τ a tenth of the radius. Thread-safe. Cost: N look-ups per pixel;
+/// a blur adds four times its reach.
 struct ScreenSpace {
     float radius = 0.1f;       ///< unit space, > 0
     int samples = 16;          ///< N
-    float bias = 5.0f;         ///< degrees above the tangent plane
+    float bias = 5.0f;         ///< excluded angle above the tangent plane, degrees
     int blur = 2;              ///< a Blur
-    float blur_reach = 0.125f; ///< of the radius as it is seen, from 1 to 64 pixels
+    float blur_reach = 0.125f; ///< relative to the projected radius; clamped to 1 to 64 pixels
 
     static constexpr std::string_view name = "screen_space";
     static constexpr std::string_view summary =
-        "samples of the hemisphere, looked up in depth and normals of the picture";
+        "samples of the hemisphere, looked up in the depth and normals of the image";
     static constexpr std::string_view formula =
         "1 - 1/N sum [depth at the pixel of q_i < depth of q_i < that + radius], q_i = p + r_i dir_i";
     static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
-    static constexpr std::string_view cost = "0 beside those of the picture";
-    static constexpr std::string_view good = "time depends on the pixels alone";
+    static constexpr std::string_view cost = "0 in addition to those of the image";
+    static constexpr std::string_view good = "time depends on the number of pixels only";
     static constexpr std::string_view bad =
-        "blind to what is not seen, outside the image or behind what is in front";
+        "misses occluders that the camera does not see: outside the image or hidden";
 
-    /// A depth, a normal, a place, and the occlusion before, between and after its blurs.
+    /// Depth, normal, position, and the occlusion before, between and after the two blur passes.
     static constexpr double bytes_per_pixel = sizeof(float) + 2 * sizeof(Vec3) + 3 * sizeof(float);
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&ScreenSpace::samples>("samples", 1, 4096, "samples", "of the hemisphere"),
-            parameter<&ScreenSpace::bias>("bias", 0.0, 60.0, "degrees", "above the tangent plane, left out"),
+            parameter<&ScreenSpace::samples>("samples", 1, 4096, "samples", "in the hemisphere"),
+            parameter<&ScreenSpace::bias>("bias", 0.0, 60.0, "degrees", "above the tangent plane, excluded"),
             parameter<&ScreenSpace::blur>("blur", 0, 2, "", "0 none, 1 Gaussian, 2 bilateral"),
-            parameter<&ScreenSpace::blur_reach>("blur_reach", 0.0, 1.0, "radii", "that the blur reaches"),
+            parameter<&ScreenSpace::blur_reach>("blur_reach", 0.0, 1.0, "radii", "that the blur covers"),
         };
     }
 
     std::vector<float> operator()(const Renderable& renderable, const Camera& camera) const;
 
-    /// From what is seen already; `scene_radius` is in scene units.
+    /// From an existing depth buffer; `scene_radius` is in scene units.
     std::vector<float> operator()(const DepthBuffer& seen, double scene_radius) const;
 };
 

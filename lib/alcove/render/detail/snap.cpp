@@ -6,7 +6,7 @@
 namespace alcove {
 namespace {
 
-/// A value of the corners of a triangle, at a place of it.
+/// Interpolates a vertex value at a hit.
 template <class T>
 T interpolated(const std::vector<T>& values, const SurfaceHit& hit) {
     T sum = hit.weights[0] * values[hit.vertices[0]];
@@ -36,7 +36,7 @@ class Snapper {
     }
 
     void flush() {
-        // What is met first may be of another object, which crosses this one.
+        // The first triangle may belong to another object that crosses this one.
         constexpr int attempts = 4;
         for (int attempt = 0; attempt < attempts && rays_.count > 0; ++attempt) {
             float far = 0.0f;
@@ -52,9 +52,8 @@ class Snapper {
                     continue;
                 }
                 owner_[left.count] = owner_[i];
-                left.push_back(
-                    {{rays_.x[i], rays_.y[i], rays_.z[i]}, {rays_.dx[i], rays_.dy[i], rays_.dz[i]}},
-                    rays_.travelled[i] + 1e-5f);
+                left.push_back({{rays_.x[i], rays_.y[i], rays_.z[i]}, {rays_.dx[i], rays_.dy[i], rays_.dz[i]}},
+                               rays_.travelled[i] + 1e-5f);
             }
             rays_ = left;
         }
@@ -74,9 +73,8 @@ class Snapper {
         const Vec3 normal = interpolated(renderable_.mesh->normals, places_[i]);
         if (const float length = glm::length(normal); length > 1e-6f) {
             const float away = glm::dot(normal, direction);
-            // Mirrored where it leans over at a silhouette, turned where the back is seen.
-            const bool back =
-                glm::dot(places_[i].normal, normal) * glm::dot(places_[i].normal, direction) > 0.0f;
+            // Mirrored if it tilts away at a silhouette, negated if the back is seen.
+            const bool back = glm::dot(places_[i].normal, normal) * glm::dot(places_[i].normal, direction) > 0.0f;
             const Vec3 toward = back ? -normal : away > 0.0f ? normal - 2.0f * away * direction : normal;
             surfel.normal = toward / length;
         }
@@ -88,7 +86,7 @@ class Snapper {
     const Camera& camera_;
     Hits& hits_;
     Vec3d eye_;
-    std::vector<float> reaches_; // of the parts: how far their triangles may be from their fields
+    std::vector<float> reaches_; // by part: how far its triangles may be from its field
     RayBatch rays_;
     std::array<std::size_t, RayBatch::capacity> owner_;
     std::array<SurfaceHit, RayBatch::capacity> places_;
@@ -96,8 +94,7 @@ class Snapper {
 
 }
 
-void snap(const Renderable& renderable, const Camera& camera, std::size_t begin, std::size_t end,
-          Hits& hits) {
+void snap(const Renderable& renderable, const Camera& camera, std::size_t begin, std::size_t end, Hits& hits) {
     Snapper snapper(renderable, camera, hits);
     for (std::size_t sample = begin; sample < end; ++sample) {
         if (!hits.painted.empty())

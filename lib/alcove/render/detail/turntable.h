@@ -1,4 +1,4 @@
-/// A camera that goes around what it looks at.
+/// Turntable cameras.
 #pragma once
 
 #include "alcove/render/camera.h"
@@ -7,19 +7,19 @@
 
 namespace alcove {
 
-/// The line that everything turns about.
+/// An axis of rotation.
 struct Axis {
     Vec3d point{0.0};
     Vec3d direction{0.0, 1.0, 0.0}; ///< of any length but 0
 };
 
-/// Counterclockwise seen from the end of the axis.
+/// The point rotated about the axis, counterclockwise as seen from its tip.
 Vec3d turned(const Vec3d& p, const Axis& axis, double degrees);
 
-/// The camera carried around the axis, still with `up` upward.
+/// The camera rotated about the axis.
 Camera turned(const Camera& camera, const Axis& axis, double degrees);
 
-/// Where the points come while they turn, every fifteen degrees: what a camera must see to see them in all frames.
+/// Copies of the points rotated in steps of fifteen degrees: a camera that frames them all frames every turn.
 std::vector<Vec3d> swept(std::span<const Vec3d> points, const Axis& axis);
 
 }

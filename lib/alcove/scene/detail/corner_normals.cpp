@@ -5,7 +5,7 @@
 namespace alcove {
 
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
-    // Twice the area in length, in units in which no product over- or underflows.
+    // Face normals with twice the area as length, scaled such that no product over- or underflows.
     const double scale = exact_scale(mesh);
     std::vector<Vec3d> faces;
     std::vector<std::uint32_t> begin(mesh.positions.size() + 1, 0);
@@ -16,7 +16,7 @@ std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<cons
         for (const std::uint32_t vertex : t)
             ++begin[vertex + 1];
     }
-    // The faces around each vertex, one vertex after the other.
+    // Adjacency lists: the faces around each vertex, vertex by vertex.
     for (std::size_t v = 1; v < begin.size(); ++v)
         begin[v] += begin[v - 1];
     std::vector<std::uint32_t> around(begin.back()), filled(begin.begin(), begin.end() - 1);
@@ -33,14 +33,14 @@ std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<cons
                 continue;
             }
             Vec3d sum(0.0);
-            constexpr double least_cosine = 0.766;    // of 40 degrees
-            constexpr std::uint32_t most_faces = 256; // each is looked at for each
-            const bool many = begin[vertex + 1] - begin[vertex] > most_faces;
+            constexpr double min_cosine = 0.766;     // cos 40°
+            constexpr std::uint32_t max_faces = 256; // the work is quadratic in the faces of a vertex
+            const bool many = begin[vertex + 1] - begin[vertex] > max_faces;
             if (many)
                 sum = faces[f];
             for (std::uint32_t k = begin[vertex]; !many && k < begin[vertex + 1]; ++k) {
                 const Vec3d& other = faces[around[k]];
-                if (glm::dot(other, faces[f]) >= least_cosine * glm::length(other) * glm::length(faces[f]))
+                if (glm::dot(other, faces[f]) >= min_cosine * glm::length(other) * glm::length(faces[f]))
                     sum += other;
             }
             const double length = glm::length(sum);

@@ -1,4 +1,4 @@
-/// Normals that are smooth within a surface and break at its edges.
+/// Normals that are smooth on a surface and discontinuous at its edges.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -7,10 +7,10 @@
 
 namespace alcove {
 
-/// One a corner of each triangle, unit length, or zero where all faces around it are degenerate: the file's normal of the
-/// vertex, or where it has none the area-weighted mean of those faces around it that are within 40 degrees of the triangle
-/// itself; around a vertex of more than 256, the face's own. Triangles hold finite vertices only (as triangulate() gives).
-/// Cost: linear, times the triangles around a vertex.
+/// One normal per triangle corner, unit length; zero if all faces around the vertex are degenerate. The vertex normal
+/// of the file if there is one; else the area-weighted mean of the adjacent faces within 40 degrees of the triangle; at
+/// vertices of more than 256 faces, the normal of the triangle. All vertices of the triangles must be finite, as
+/// triangulate() ensures. Cost: linear in the triangles, times the number of triangles around a vertex.
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles);
 
 }

@@ -13,14 +13,14 @@
 namespace alcove {
 namespace {
 
-LoadedShape fetch(const SceneObject& object, const Pose& outer);
+LoadedShape load(const SceneObject& object, const Pose& outer);
 
 void add(Box& box, const Box& other) {
     box.add(other.min);
     box.add(other.max);
 }
 
-void fetch_mesh(const MeshShape& shape, LoadedShape& loaded) {
+void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
     loaded.mesh = read_mesh(shape.file);
     loaded.warnings = loaded.mesh.warnings;
     loaded.triangles = triangulate(loaded.mesh).triangles;
@@ -29,7 +29,7 @@ void fetch_mesh(const MeshShape& shape, LoadedShape& loaded) {
             loaded.box.add(loaded.pose(p));
 }
 
-void fetch_grid(const GridShape& shape, LoadedShape& loaded) {
+void load_grid(const GridShape& shape, LoadedShape& loaded) {
     loaded.stack = read_grids(shape.file);
     loaded.warnings = loaded.stack.warnings;
     try {
@@ -39,19 +39,19 @@ void fetch_grid(const GridShape& shape, LoadedShape& loaded) {
     }
 }
 
-void fetch_parts(const CompositeShape& shape, LoadedShape& loaded) {
+void load_parts(const CompositeShape& shape, LoadedShape& loaded) {
     const bool unite = shape.operation == CompositeShape::Operation::unite;
     for (const SceneObject& object : shape.parts) {
-        loaded.parts.push_back(fetch(object, loaded.pose));
+        loaded.parts.push_back(load(object, loaded.pose));
         if (!unite && loaded.parts.size() > 1)
             continue;
         const Box& box = loaded.parts.back().box;
         if (box.empty())
             throw InputError(object.name +
-                             ": has no end, so it can only be cut away from others: use a large box");
+                             ": is infinite, so it can only be subtracted from other parts: use a large box");
         add(loaded.box, box);
     }
-    // Where faces are flush a blend bulges: a quarter of its width for two parts, never more than the width.
+    // A blend bulges where faces are flush: by a quarter of its width for two parts, never by more than its width.
     double bulge = 0.0;
     for (std::size_t i = 1; unite && i < shape.parts.size() && shape.blend > 0.0; ++i)
         bulge += std::pow(shape.blend - bulge, 2.0) / (4.0 * shape.blend);
@@ -60,15 +60,15 @@ void fetch_parts(const CompositeShape& shape, LoadedShape& loaded) {
     loaded.box.max += bulge;
 }
 
-LoadedShape fetch(const SceneObject& object, const Pose& outer) {
+LoadedShape load(const SceneObject& object, const Pose& outer) {
     LoadedShape loaded{&object, outer * pose_of(object.placement)};
     loaded.box = box_of(object.shape, loaded.pose);
     if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
-        fetch_mesh(*mesh, loaded);
+        load_mesh(*mesh, loaded);
     if (const auto* grid = std::get_if<GridShape>(&object.shape))
-        fetch_grid(*grid, loaded);
+        load_grid(*grid, loaded);
     if (const auto* composite = std::get_if<CompositeShape>(&object.shape))
-        fetch_parts(*composite, loaded);
+        load_parts(*composite, loaded);
     return loaded;
 }
 
@@ -77,7 +77,7 @@ LoadedShape fetch(const SceneObject& object, const Pose& outer) {
 std::vector<LoadedShape> load_shapes(const Scene& scene) {
     std::vector<LoadedShape> shapes;
     for (const SceneObject& object : scene.objects)
-        shapes.push_back(fetch(object, Pose{}));
+        shapes.push_back(load(object, Pose{}));
     return shapes;
 }
 

@@ -11,8 +11,8 @@
 namespace alcove {
 namespace {
 
-/// Places on the faces, evenly by area, in the unit space of a frame in the space of the loaded.
-std::vector<Surfel> places_on_faces(const LoadedShape& loaded, const Frame& own) {
+/// Points spread evenly by area over the faces, in the unit space of `own`, the frame of the mesh.
+std::vector<Surfel> points_on_faces(const LoadedShape& loaded, const Frame& own) {
     constexpr std::size_t count = 4096;
     const auto corner = [&](const Triangle& t, int i) {
         return (loaded.mesh.positions[t[static_cast<std::size_t>(i)]] - own.center) / own.diagonal;
@@ -29,23 +29,22 @@ std::vector<Surfel> places_on_faces(const LoadedShape& loaded, const Frame& own)
         const Vec3d normal = cross(t);
         const double length = glm::length(normal);
         before += length;
-        while (surfels.size() < count &&
-               before * count > (static_cast<double>(surfels.size()) + 0.5) * area) {
-            Vec2 place = recurrence_point(surfels.size(), 0);
-            if (place.x + place.y > 1.0f)
-                place = Vec2(1.0f) - place;
+        while (surfels.size() < count && before * count > (static_cast<double>(surfels.size()) + 0.5) * area) {
+            Vec2 uv = recurrence_point(surfels.size(), 0);
+            if (uv.x + uv.y > 1.0f)
+                uv = Vec2(1.0f) - uv;
             const Vec3d a = corner(t, 0);
-            const Vec3d p = a + double(place.x) * (corner(t, 1) - a) + double(place.y) * (corner(t, 2) - a);
+            const Vec3d p = a + double(uv.x) * (corner(t, 1) - a) + double(uv.y) * (corner(t, 2) - a);
             surfels.push_back({Vec3(p), Vec3(normal / length)});
         }
     }
     return surfels;
 }
 
-/// How many of the surfels have no inside on either side: normals may be the wrong way round.
+/// The share of the surfels with no inside on either side. Checks both, because normals may be flipped.
 double share_without_inside(const std::vector<Surfel>& surfels, const LoadedShape& loaded, const Frame& own,
                             const AnyField& field, const Frame& frame) {
-    // Below what most edges are rounded by; walls of two voxels are whole there.
+    // Less than most edges are rounded by; walls of two voxels are intact at this depth.
     const float depth = 0.25f * loaded.stack.levels.front().voxel;
     const auto value = [&](const Surfel& surfel, float height) {
         return field.map(frame.to_unit(loaded.pose(own.to_scene(surfel.position + height * surfel.normal))));
@@ -61,35 +60,34 @@ double share_without_inside(const std::vector<Surfel>& surfels, const LoadedShap
 std::string missing_walls(const LoadedShape& loaded, const AnyField& field, const Frame& frame,
                           const GridOptions& options) {
     constexpr double noticeable = 0.01, percent = 100.0;
-    constexpr double told_by_floats = 1e-5; // voxels that the unit space of a far larger scene tells
+    constexpr double resolved_by_floats = 1e-5; // smallest voxel, relative to the diagonal of the scene
     const Frame own = frame_of(loaded.mesh.box());
     const float voxel = loaded.stack.levels.front().voxel;
-    const bool is_told = double(voxel) * own.diagonal * loaded.pose.scale > told_by_floats * frame.diagonal;
-    if (loaded.stack.sign == Sign::sheet || !is_told)
+    const bool resolved = double(voxel) * own.diagonal * loaded.pose.scale > resolved_by_floats * frame.diagonal;
+    if (loaded.stack.sign == Sign::sheet || !resolved)
         return {};
-    const std::vector<Surfel> places = places_on_faces(loaded, own);
-    if (share_without_inside(places, loaded, own, field, frame) < noticeable)
+    const std::vector<Surfel> points = points_on_faces(loaded, own);
+    if (share_without_inside(points, loaded, own, field, frame) < noticeable)
         return {};
     std::vector<Vec3> positions;
     positions.reserve(loaded.mesh.positions.size());
     for (const Vec3d& p : loaded.mesh.positions)
         positions.push_back(own.to_unit(p));
     const RaySurface surface(positions, loaded.triangles);
-    const ThinWalls walls = thin_walls(places, surface, voxel, false);
-    // Twice as far from an edge the far side is twice as far: of edges, half the share is nearer than half of that.
-    const double share = std::abs(2.0 * thin_walls(places, surface, 0.5f * voxel, false).share - walls.share);
+    const ThinWalls walls = thin_walls(points, surface, voxel, false);
+    // Near an edge, the distance to the far side is proportional to that to the edge. So edges contribute half the
+    // share at half the voxel, and cancel out here.
+    const double share = std::abs(2.0 * thin_walls(points, surface, 0.5f * voxel, false).share - walls.share);
     if (share < noticeable)
         return {};
-    constexpr double clearly = 0.98; // finer, for the voxel is told by three digits
-    const double told = clearly * double(walls.voxel);
-    const double finest =
-        finest_voxel(surface_size(loaded.mesh, loaded.triangles), loaded.triangles.size(), options);
+    constexpr double rounding = 0.98; // the message rounds the voxel to three digits
+    const double needed = rounding * double(walls.voxel);
+    const double finest = finest_voxel(surface_size(loaded.mesh, loaded.triangles), loaded.triangles.size(), options);
     return fmt::format(
-        "walls, {:.0f} % of the surface, are too thin for the voxel of {:.3g}%, and have holes: {} "
+        "walls ({:.0f} % of the surface) are too thin for the voxel of {:.3g}% and have holes: {} a "
         "voxel of {:.3g}%{}",
-        percent * share, percent * double(voxel), told < finest ? "they ask for a" : "use a", percent * told,
-        told < finest ? fmt::format(", which takes more than {:.2g} GB", options.memory_limit / 1e9)
-                      : std::string());
+        percent * share, percent * double(voxel), needed < finest ? "they need" : "use", percent * needed,
+        needed < finest ? fmt::format(", which takes more than {:.2g} GB", options.memory_limit / 1e9) : std::string());
 }
 
 }

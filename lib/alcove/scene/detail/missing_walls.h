@@ -1,4 +1,4 @@
-/// Walls of a mesh that are not in its field, as they are too thin for its grid.
+/// Detects walls of a mesh that are missing from its field because they are too thin for its grid.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -7,10 +7,10 @@
 
 namespace alcove {
 
-/// What to say where a hundredth of the surface of a solid or more has no inside in the field, and as much is thin walls
-/// rather than edges: how much, and the voxel that mends it; else empty. The field is that of the loaded alone, in the unit
-/// space of `frame`, `options` what its grid was made with. Cost: two map() calls for each of 4,096 places; where so many have
-/// no inside, also the time of RaySurface and twice that of thin_walls().
+/// A warning if at least a hundredth of the surface of a solid has no inside in the field, and at least a hundredth is
+/// thin walls rather than edges: it names the share and the voxel that resolves them. Else an empty string. `field` is
+/// that of this shape only, in the unit space of `frame`; `options` are those of its grid. Cost: two map() calls at
+/// each of 4,096 points; if a hundredth of them have no inside, also one RaySurface and two calls of thin_walls().
 std::string missing_walls(const LoadedShape& loaded, const AnyField& field, const Frame& frame,
                           const GridOptions& options);
 

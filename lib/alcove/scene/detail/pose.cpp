@@ -6,7 +6,7 @@
 namespace alcove {
 namespace {
 
-/// Counterclockwise about an axis.
+/// Counterclockwise rotation about a coordinate axis.
 glm::dmat3 turned(int axis, double degrees) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;

@@ -1,4 +1,4 @@
-/// Where something is, in double precision: what placements come to, one within the other.
+/// Nested placements combined, in double precision.
 #pragma once
 
 #include "alcove/scene/scene.h"
@@ -18,10 +18,10 @@ struct Pose {
 
 Pose pose_of(const Placement& placement);
 
-/// First the inner, then the outer.
+/// Applies the inner pose first, then the outer.
 Pose operator*(const Pose& outer, const Pose& inner);
 
-/// The box around a box that is posed.
+/// The axis-aligned box around the posed box.
 Box posed(const Box& box, const Pose& pose);
 
 }

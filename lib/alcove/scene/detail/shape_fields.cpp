@@ -3,7 +3,7 @@
 #include "alcove/base/errors.h"
 #include "alcove/field/detail/blend.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/grid/zero_surface.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/scene/detail/missing_walls.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace alcove {
 namespace {
 
-/// A visitor made of lambdas.
+/// A visitor composed of lambdas.
 template <class... Cases>
 struct Overloaded : Cases... {
     using Cases::operator()...;
@@ -21,7 +21,7 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-/// A field of the unit space of `own`, a frame in the space of the loaded.
+/// Transforms a field from the unit space of `own`, a frame in the space of the shape, to that of the scene.
 template <Field F>
 AnyField put(F field, const Frame& own, const LoadedShape& loaded, const BuildContext& context) {
     return Transformed<F>{std::move(field), glm::mat3(loaded.pose.rotation),
@@ -33,13 +33,13 @@ AnyField put_stack(const LoadedShape& loaded, const BuildContext& context) {
     const Pose& pose = loaded.pose;
     if (pose.rotation != glm::dmat3(1.0))
         return put(LevelStack(loaded.stack), loaded.stack.frame, loaded, context);
-    // What is not turned needs no arithmetic a point: the unit space of the scene, as a frame in the loaded's space.
-    const Frame of_stage{(context.frame.center - pose.translation) / pose.scale,
-                         context.frame.diagonal / pose.scale};
-    return LevelStack(reframed(loaded.stack, of_stage));
+    // Without a rotation, reframing the grid avoids transforming every point.
+    const Frame scene_frame{(context.frame.center - pose.translation) / pose.scale,
+                            context.frame.diagonal / pose.scale};
+    return LevelStack(reframed(loaded.stack, scene_frame));
 }
 
-/// A length of the context, in the unit space of a frame in the space of the loaded.
+/// Converts a length from the unit space of the scene to that of `own`, a frame in the space of the shape.
 float in_unit_of(const Frame& own, float length, const LoadedShape& loaded, const BuildContext& context) {
     return static_cast<float>(double(length) * context.frame.diagonal / (own.diagonal * loaded.pose.scale));
 }
@@ -80,10 +80,10 @@ void extend_grid(const GridShape& shape, LoadedShape& loaded, const BuildContext
     if (loaded.stack.sign == Sign::sheet) {
         if (reach >= wanted)
             return;
-        loaded.warnings.push_back(fmt::format(
-            "{} holds distances up to {:.4g}, less than occlusion and shadows ask: beyond them these are "
-            "guessed; voxelize its mesh with a larger --radius",
-            shape.file.string(), reach * loaded.stack.frame.diagonal));
+        loaded.warnings.push_back(
+            fmt::format("{} holds distances up to {:.4g}, less than occlusion and shadows need: larger ones are "
+                        "guessed; voxelize its mesh with a larger --radius",
+                        shape.file.string(), reach * loaded.stack.frame.diagonal));
         return;
     }
     try {
@@ -95,11 +95,10 @@ void extend_grid(const GridShape& shape, LoadedShape& loaded, const BuildContext
     }
 }
 
-AnyField composite(const CompositeShape& shape, LoadedShape& loaded, const BuildContext& context,
-                   bool inside) {
+AnyField composite(const CompositeShape& shape, LoadedShape& loaded, const BuildContext& context, bool inside) {
     const bool unite = shape.operation == CompositeShape::Operation::unite;
     const auto width = static_cast<float>(shape.blend * loaded.pose.scale / context.frame.diagonal);
-    // A blend asks for distances as far as its width beyond what is asked of it, and a cut for those of the inside.
+    // A blend needs distances up to its width beyond the requested reach; a subtracted part needs those inside.
     BuildContext wider = context;
     wider.reach += width;
     std::vector<AnyField> fields;
@@ -107,9 +106,8 @@ AnyField composite(const CompositeShape& shape, LoadedShape& loaded, const Build
         const bool cuts = !unite && (!fields.empty() || width > 0.0f);
         fields.push_back(field_of(part, wider, inside || cuts));
         if (two_sided(fields.back()) && (!unite || shape.blend > 0.0))
-            throw InputError(
-                fmt::format("{}: is open, and only solids are {}: close it, or say sign = \"signed\"",
-                            part.object->name, unite ? "blended" : "cut or cut away"));
+            throw InputError(fmt::format("{}: is open, but {} takes only solids: close it, or set sign = \"solid\"",
+                                         part.object->name, unite ? "a blend" : "a difference"));
     }
     if (!unite)
         return Difference<AnyField>(std::move(fields), width);
@@ -128,30 +126,30 @@ Plane plane_of(const LoadedShape& loaded, const Frame& frame) {
 
 AnyField field_of(LoadedShape& loaded, const BuildContext& context, bool inside) {
     return std::visit(
-        Overloaded{[&](const SphereShape& s) {
-                       return put(Sphere{}, {s.center, s.radius}, loaded, context);
-                   },
-                   [&](const BoxShape& s) {
-                       const double size = glm::length(s.size);
-                       return put(Cuboid{{}, Vec3(0.5 * s.size / size)}, {s.center, size}, loaded, context);
-                   },
-                   [&](const TorusShape& s) {
-                       return put(Torus{{}, 1.0f, static_cast<float>(s.tube / s.ring)}, {s.center, s.ring},
-                                  loaded, context);
-                   },
-                   [&](const CapsuleShape& s) {
-                       const Frame own{0.5 * (s.start + s.end), glm::length(s.end - s.start) + s.radius};
-                       return put(Capsule{own.to_unit(s.start), own.to_unit(s.end),
-                                          static_cast<float>(s.radius / own.diagonal)},
-                                  own, loaded, context);
-                   },
-                   [&](const PlaneShape&) { return AnyField(plane_of(loaded, context.frame)); },
-                   [&](const MeshShape& s) { return voxelized(s, loaded, context, inside); },
-                   [&](const GridShape& s) {
-                       extend_grid(s, loaded, context, inside);
-                       return put_stack(loaded, context);
-                   },
-                   [&](const CompositeShape& s) { return composite(s, loaded, context, inside); }},
+        Overloaded{
+            [&](const SphereShape& s) {
+                return put(Sphere{}, {s.center, s.radius}, loaded, context);
+            },
+            [&](const BoxShape& s) {
+                const double size = glm::length(s.size);
+                return put(Cuboid{{}, Vec3(0.5 * s.size / size)}, {s.center, size}, loaded, context);
+            },
+            [&](const TorusShape& s) {
+                return put(Torus{{}, 1.0f, static_cast<float>(s.tube / s.ring)}, {s.center, s.ring}, loaded, context);
+            },
+            [&](const CapsuleShape& s) {
+                const Frame own{0.5 * (s.start + s.end), glm::length(s.end - s.start) + s.radius};
+                return put(
+                    Capsule{own.to_unit(s.start), own.to_unit(s.end), static_cast<float>(s.radius / own.diagonal)}, own,
+                    loaded, context);
+            },
+            [&](const PlaneShape&) { return AnyField(plane_of(loaded, context.frame)); },
+            [&](const MeshShape& s) { return voxelized(s, loaded, context, inside); },
+            [&](const GridShape& s) {
+                extend_grid(s, loaded, context, inside);
+                return put_stack(loaded, context);
+            },
+            [&](const CompositeShape& s) { return composite(s, loaded, context, inside); }},
         loaded.object->shape);
 }
 

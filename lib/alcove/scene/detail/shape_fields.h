@@ -1,4 +1,4 @@
-/// From shapes to fields: meshes voxelized, level sets extended, all placed in the unit space of the scene.
+/// Builds the fields of shapes: voxelizes meshes, extends level sets, and places all in the unit space of the scene.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -7,22 +7,22 @@
 
 namespace alcove {
 
-/// What all fields of a scene have in common.
+/// Parameters shared by all fields of a scene.
 struct BuildContext {
-    Frame frame;  ///< of unit space
-    float radius; ///< of occlusion, which voxels follow, unit space
-    float reach; ///< as far as distances are to be right, unit space; 0 where nothing but the eye's rays asks
-    double memory_limit; ///< bytes that the grids of each loaded may take
-    Progress progress{}; ///< of one grid
+    Frame frame;         ///< maps unit space to scene space
+    float radius;        ///< radius of occlusion, which determines voxels; unit space
+    float reach;         ///< distances up to this must be correct, unit space; 0 if only camera rays need the field
+    double memory_limit; ///< bytes for the grids of each shape
+    Progress progress{}; ///< progress of one grid
 };
 
-/// Makes the stack of a mesh, and extends that of a level set to the reach. With `inside`, distances of the inside are
-/// right as far, too. Warnings go to the loaded. \throw InputError naming the object or its file: what
-/// voxelize() and extend_levels() throw, and a difference or blended union of what is no solid; LimitError as
-/// voxelize().
+/// The field of a shape. Voxelizes a mesh, and extends a level set to the reach; keeps the grid and the warnings in
+/// `loaded`. With `inside`, distances inside are correct up to the reach as well. \throw InputError naming the object
+/// or its file: what voxelize() and extend_levels() throw, and an open surface in a difference or blended union;
+/// LimitError as voxelize().
 AnyField field_of(LoadedShape& loaded, const BuildContext& context, bool inside = false);
 
-/// That of a loaded whose shape is one.
+/// The plane of a PlaneShape, in unit space.
 Plane plane_of(const LoadedShape& loaded, const Frame& frame);
 
 }

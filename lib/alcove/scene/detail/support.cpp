@@ -7,9 +7,7 @@ namespace alcove {
 
 std::optional<double> support(const Shape& shape, const Pose& pose, const Vec3d& direction) {
     const Vec3d u = glm::transpose(pose.rotation) * direction; // in the space of the shape
-    const auto at = [&](const Vec3d& p, double further) {
-        return glm::dot(direction, pose(p)) + pose.scale * further;
-    };
+    const auto at = [&](const Vec3d& p, double further) { return glm::dot(direction, pose(p)) + pose.scale * further; };
     if (const auto* sphere = std::get_if<SphereShape>(&shape))
         return at(sphere->center, sphere->radius);
     if (const auto* box = std::get_if<BoxShape>(&shape))

@@ -10,10 +10,10 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t deepest = 1000;
+constexpr std::size_t max_depth = 1000;
 
-/// Behind the text in quotes that begins at `at`, or at the end of its line or the file where it has no end.
-const char* end_of_text(const char* at, const char* end) {
+/// The end of the quoted string that starts at `at`; if it is not closed, the end of its line or of the file.
+const char* end_of_string(const char* at, const char* end) {
     const auto is_quote = [quote = *at](char c) { return c == quote; };
     const auto are_three = [&](const char* first) {
         return end - first > 2 && std::all_of(first, first + 3, is_quote);
@@ -23,7 +23,7 @@ const char* end_of_text(const char* at, const char* end) {
         if (*at == '\\' && has_escapes)
             ++at;
         else if (is_long && are_three(at))
-            return std::find_if_not(at, end, is_quote); // the first of them may be of the text
+            return std::find_if_not(at, end, is_quote); // extra quotes belong to the string
         else if (!is_long && is_quote(*at))
             return at + 1;
         else if (!is_long && *at == '\n')
@@ -36,12 +36,12 @@ const char* end_of_text(const char* at, const char* end) {
 
 void check_toml_depth(const FileBytes& file) {
     std::size_t depth = 0;
-    std::vector<std::size_t> outside; // the depth in front of each bracket that is open
+    std::vector<std::size_t> outside; // the depth before each open bracket
     for (const char* at = file.begin(); at < file.end(); ++at)
         switch (*at) {
         case '"':
         case '\'':
-            at = end_of_text(at, file.end()) - 1;
+            at = end_of_string(at, file.end()) - 1;
             break;
         case '#':
             at = std::find(at, file.end(), '\n') - 1;
@@ -51,10 +51,9 @@ void check_toml_depth(const FileBytes& file) {
             outside.push_back(depth);
             [[fallthrough]];
         case '.':
-            if (++depth > deepest)
-                throw InputError(fmt::format("{}:{}: is no TOML here: tables nested more than {} deep",
-                                             file.path().string(), 1 + std::count(file.begin(), at, '\n'),
-                                             deepest));
+            if (++depth > max_depth)
+                throw InputError(fmt::format("{}:{}: unsupported TOML: nested more than {} deep", file.path().string(),
+                                             1 + std::count(file.begin(), at, '\n'), max_depth));
             break;
         case ']':
         case '}':

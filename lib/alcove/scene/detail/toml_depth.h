@@ -1,11 +1,11 @@
-/// A look at a TOML file before it is parsed, by a library that goes down the stack for each part of a key.
+/// Checks the nesting of a TOML file before parsing: the parser recurses for each part of a key.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
 
 namespace alcove {
 
-/// \throw InputError where dots of keys and brackets are nested more than a thousand deep. What else is no TOML passes.
+/// \throw InputError if dotted keys and brackets are nested more than a thousand deep. Accepts other invalid TOML.
 void check_toml_depth(const FileBytes& file);
 
 }

@@ -20,7 +20,7 @@ std::string_view kind(const toml::node& node) {
     case toml::node_type::array:
         return "an array";
     case toml::node_type::string:
-        return "a text";
+        return "a string";
     case toml::node_type::integer:
     case toml::node_type::floating_point:
         return "a number";
@@ -43,13 +43,13 @@ void TomlTable::fail(std::string_view key, const std::string& what, std::string_
                                  in_one_line(fmt::format("{}{}{}", key, key.empty() ? "" : between, what))));
 }
 
-/// The name of a table within this one.
+/// The full name of a table in this one.
 std::string TomlTable::path_of(std::string_view key) const {
     return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
-    asked_.emplace_back(key);
+    known_.emplace_back(key);
     return table_.get(key);
 }
 
@@ -72,12 +72,12 @@ std::optional<double> TomlTable::positive(std::string_view key) {
     return value;
 }
 
-std::optional<int> TomlTable::count(std::string_view key, int least, int most) {
+std::optional<int> TomlTable::count(std::string_view key, int min, int max) {
     const std::optional<double> value = number(key);
     if (!value)
         return {};
-    if (*value != std::floor(*value) || *value < least || *value > most)
-        fail(key, fmt::format("takes a whole number from {} to {}, not {}", least, most, *value));
+    if (*value != std::floor(*value) || *value < min || *value > max)
+        fail(key, fmt::format("takes a whole number from {} to {}, not {}", min, max, *value));
     return static_cast<int>(*value);
 }
 
@@ -95,12 +95,11 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
     if (!node)
         return {};
     if (!node->is_string())
-        fail(key, fmt::format("takes a text, not {}", kind(*node)));
+        fail(key, fmt::format("takes a string, not {}", kind(*node)));
     return node->value<std::string>();
 }
 
-std::optional<std::size_t> TomlTable::word(std::string_view key,
-                                           std::initializer_list<std::string_view> words) {
+std::optional<std::size_t> TomlTable::word(std::string_view key, std::initializer_list<std::string_view> words) {
     const std::optional<std::string> value = text(key);
     if (!value)
         return {};
@@ -135,25 +134,24 @@ std::optional<Vec3d> TomlTable::direction(std::string_view key) {
     return value;
 }
 
-std::optional<Vec3> TomlTable::color(std::string_view key, double most) {
+std::optional<Vec3> TomlTable::color(std::string_view key, double max) {
     const toml::node* node = find(key);
     if (!node)
         return {};
     const bool grey = node->is_number();
     const toml::array* array = node->as_array();
     Vec3 result(0.0f);
-    bool right = grey || (array && array->size() == 3);
-    for (int channel = 0; right && channel < 3; ++channel) {
+    bool valid = grey || (array && array->size() == 3);
+    for (int channel = 0; valid && channel < 3; ++channel) {
         const toml::node& part = grey ? *node : *array->get(static_cast<std::size_t>(channel));
         const std::optional<double> value = part.value<double>();
-        right = part.is_number() && value && *value >= 0.0 && *value <= most;
+        valid = part.is_number() && value && *value >= 0.0 && *value <= max;
         result[channel] = static_cast<float>(value.value_or(0.0));
     }
-    if (!right)
-        fail(key, fmt::format("takes red, green and blue of linear light from 0 to {:g}, or one number for a "
-                              "grey: write {} "
+    if (!valid)
+        fail(key, fmt::format("takes linear red, green and blue from 0 to {:g}, or one number for grey: write {} "
                               "= [0.8, 0.5, 0.3]",
-                              most, key));
+                              max, key));
     return result;
 }
 
@@ -171,7 +169,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
     if (!node)
         return {};
     if (!node->is_array_of_tables())
-        fail(key, fmt::format("takes tables: write [[{}]] before each", path_of(key)));
+        fail(key, fmt::format("takes an array of tables: write [[{}]] before each", path_of(key)));
     std::vector<TomlTable> result;
     for (const toml::node& element : *node->as_array())
         result.emplace_back(*element.as_table(), file_, fmt::format("[[{}]]", path_of(key)), path_of(key));
@@ -186,18 +184,16 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::named_tables() {
 }
 
 void TomlTable::check_all_read() const {
-    constexpr std::size_t longest = 64; // no key is near a longer one
+    constexpr std::size_t max_length = 64; // no known key is close to a longer one
     for (const auto& [key, node] : table_) {
-        if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end())
+        if (std::find(known_.begin(), known_.end(), key.str()) != known_.end())
             continue;
-        const std::string_view unknown = key.str().substr(0, longest);
-        const auto nearest =
-            std::min_element(asked_.begin(), asked_.end(), [&](const auto& a, const auto& b) {
-                return edit_distance(unknown, a) < edit_distance(unknown, b);
-            });
-        throw InputError(fmt::format("{}:{}: there is no key {} in {}; did you mean {}?", file_,
-                                     key.source().begin.line, in_one_line(std::string(unknown)),
-                                     in_one_line(name_), *nearest));
+        const std::string_view unknown = key.str().substr(0, max_length);
+        const auto nearest = std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
+            return edit_distance(unknown, a) < edit_distance(unknown, b);
+        });
+        throw InputError(fmt::format("{}:{}: unknown key {} in {}; did you mean {}?", file_, key.source().begin.line,
+                                     in_one_line(std::string(unknown)), in_one_line(name_), *nearest));
     }
 }
 

@@ -1,8 +1,8 @@
 #include "alcove/scene/detail/triangles.h"
 
 #include "alcove/base/errors.h"
-#include "alcove/field/combine.h"
-#include "alcove/grid/zero_surface.h"
+#include "alcove/field/primitives.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/detail/directions.h"
 #include "alcove/scene/detail/corner_normals.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr float voxel = 1.0f / 256.0f;
 
-/// Share of light of a byte of sRGB. IEC 61966-2-1 (1999).
+/// Linear light of an sRGB byte, in [0, 1] (srgb1999).
 float decoded(std::uint8_t byte) {
     const float s = static_cast<float>(byte) / 255.0f;
     return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
@@ -29,7 +29,7 @@ class Collector {
   public:
     explicit Collector(const Frame& frame) : frame_(frame) {}
 
-    /// What is added from now on is of that object.
+    /// Sets the object of everything added from now on.
     void begin(ObjectId object) { object_ = object; }
 
     void add_mesh(const LoadedShape& loaded, const MeshShape& shape) {
@@ -49,7 +49,7 @@ class Collector {
             add_triangles(loaded.triangles, first);
             return;
         }
-        // Normals differ from corner to corner, so each has a vertex of its own.
+        // Normals differ between corners, so each corner gets its own vertex.
         const auto normals = corner_normals(loaded.mesh, loaded.triangles);
         for (std::size_t f = 0; f < loaded.triangles.size(); ++f) {
             for (std::size_t corner = 0; corner < 3; ++corner)
@@ -59,11 +59,11 @@ class Collector {
         }
     }
 
-    /// On voxels of the loaded's own size.
+    /// Adds the zero surface of a field, on voxels relative to the size of the shape.
     void add_field(const LoadedShape& loaded, const AnyField& field) {
         if (two_sided(field))
             throw InputError(loaded.object->name +
-                             ": holds an open surface, of which only the mesh itself has triangles");
+                             ": is an open surface without a mesh, so it has no triangles for rays");
         const Frame own = frame_of(loaded.box);
         const auto in_own = placed(field, frame_, own);
         const auto sample = [&](std::span<const Vec3> points, float* distances) {
@@ -84,7 +84,7 @@ class Collector {
     void add_ground(const Plane& plane) {
         const Basis basis(plane.normal);
         const auto first = static_cast<std::uint32_t>(positions_.size());
-        constexpr float horizon = 100.0f; // as far as a field without an end is traced
+        constexpr float horizon = 100.0f; // as in longest_ray()
         for (const Vec2 corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
             add_position(plane.offset * basis.normal +
                              horizon * (corner.x * basis.tangent + corner.y * basis.bitangent),
@@ -97,9 +97,8 @@ class Collector {
             return nullptr;
         if (!is_painted_)
             painted_.clear();
-        return std::make_shared<const RenderableMesh>(RenderableMesh{RaySurface(positions_, triangles_),
-                                                                     std::move(objects_), std::move(normals_),
-                                                                     std::move(painted_)});
+        return std::make_shared<const RenderableMesh>(RenderableMesh{
+            RaySurface(positions_, triangles_), std::move(objects_), std::move(normals_), std::move(painted_)});
     }
 
   private:
@@ -126,9 +125,8 @@ class Collector {
 }
 
 std::shared_ptr<const RenderableMesh> triangles_of(const std::vector<LoadedShape>& shapes,
-                                                   const std::vector<Part>& parts,
-                                                   const std::vector<Ground>& grounds, const Frame& frame,
-                                                   bool all) {
+                                                   const std::vector<Part>& parts, const std::vector<Ground>& grounds,
+                                                   const Frame& frame, bool all) {
     Collector collector(frame);
     std::size_t part = 0;
     for (const LoadedShape& loaded : shapes) {

@@ -1,4 +1,4 @@
-/// The triangles of a scene, where normals, painted values or exact rays ask for them.
+/// The triangles of a scene, for mesh normals, painted values and exact rays.
 #pragma once
 
 #include "alcove/render/renderable.h"
@@ -6,13 +6,12 @@
 
 namespace alcove {
 
-/// Of the meshes that have normals or values of their own; with `all`, of everything: other meshes too, what is no mesh as
-/// the zero surface of its field on voxels of 1/256 of itself, and grounds as far as rays go. `parts` are those of the shapes that are no
-/// planes, in their order. Null where nothing asks. \throw InputError naming the object: painted without vertex colours, a
-/// sheet that is no mesh.
+/// The triangles of meshes with own normals or painted values; with `all`, those of every object: also other meshes,
+/// other shapes as the zero surface of their fields on voxels of 1/256 of their size, and grounds up to the length of
+/// the longest ray. `parts` are those of the shapes other than planes, in the same order. Null if there are no such
+/// triangles. \throw InputError naming the object: painted without vertex colours, or a sheet that is not a mesh.
 std::shared_ptr<const RenderableMesh> triangles_of(const std::vector<LoadedShape>& shapes,
-                                                   const std::vector<Part>& parts,
-                                                   const std::vector<Ground>& grounds, const Frame& frame,
-                                                   bool all);
+                                                   const std::vector<Part>& parts, const std::vector<Ground>& grounds,
+                                                   const Frame& frame, bool all);
 
 }

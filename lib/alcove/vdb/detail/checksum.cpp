@@ -17,7 +17,7 @@ using openvdb::FloatTree;
 using Leaf = FloatTree::LeafNodeType;
 using Sums = std::vector<std::uint32_t>;
 
-/// Bytes, one behind the other.
+/// The CRC-32 of a sequence of bytes.
 class Checksum {
   public:
     template <class T>
@@ -48,7 +48,7 @@ std::uint32_t sum_of(const Leaf& leaf) {
         .sum();
 }
 
-/// An internal node: values of its tiles.
+/// The checksum of an internal node with the values of its tiles.
 template <class Node>
 std::uint32_t sum_of(const Node& node) {
     std::vector<float> values;
@@ -82,8 +82,7 @@ std::uint32_t checksum_of(const VdbGrid& level) {
     Checksum sum;
     for (auto meta = grid.beginMeta(); meta != grid.endMeta(); ++meta) {
         const std::string& name = meta->first;
-        if (name != openvdb::GridBase::META_GRID_CLASS &&
-            (!name.starts_with("alcove:") || name == "alcove:checksum"))
+        if (name != openvdb::GridBase::META_GRID_CLASS && (!name.starts_with("alcove:") || name == "alcove:checksum"))
             continue;
         std::ostringstream value;
         meta->second->write(value);
@@ -100,10 +99,7 @@ std::uint32_t checksum_of(const VdbGrid& level) {
         sum.add(tile.getCoord().data(), 3).add(&value, 1).add(&active, 1);
     }
     using Upper = FloatTree::RootNodeType::ChildNodeType;
-    return sum.add(sums_of<Upper>(tree))
-        .add(sums_of<Upper::ChildNodeType>(tree))
-        .add(sums_of<Leaf>(tree))
-        .sum();
+    return sum.add(sums_of<Upper>(tree)).add(sums_of<Upper::ChildNodeType>(tree)).add(sums_of<Leaf>(tree)).sum();
 }
 
 }

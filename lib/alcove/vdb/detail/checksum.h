@@ -1,4 +1,4 @@
-/// The checksum by which a grid of our own tells whether it is still what was written. Internal to grid/.
+/// The checksum that detects changes of the grids that Alcove writes.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
@@ -7,10 +7,11 @@
 
 namespace alcove {
 
-/// CRC-32 (of zlib, J. Gailly and M. Adler 2022) of all that scales and places the grid and of its values: its class and `alcove:*`
-/// metadata but for `alcove:checksum`, the matrix of its transform, the background, and for every node where it is,
-/// which values are active and all of them. The same whatever the compression of its file. Damage of up to 32 bits
-/// in a row is always found, other damage but for one time in 2³². Thread-safe; by threads of parallel_for.
+/// CRC-32 (Gailly and Adler 2022) of everything that determines the scale, position and values of a grid: its
+/// class and `alcove:*` metadata except `alcove:checksum`, the matrix of its transform, the background, and for
+/// every node its origin, the mask of its active values and all its values. Independent of the compression of the
+/// file. Damage of up to 32 consecutive bits is always detected, other damage except with a probability of 2⁻³².
+/// Thread-safe; uses the threads of parallel_for.
 std::uint32_t checksum_of(const VdbGrid& grid);
 
 }

@@ -21,9 +21,9 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 
 constexpr int edge = 8;
 static_assert(Leaf::DIM == edge);
-constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // of voxels along x, y and z
+constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // between voxels along x, y and z
 
-/// Quickly, as most pieces of most grids are.
+/// Whether no neighbours in the leaf differ by more than `step`. A fast test that most leaves of most grids pass.
 bool is_smooth(const float* values, float step, float farthest, float deepest) {
     int steps = 0;
     const auto count = [&](int v, int stride) {
@@ -42,15 +42,15 @@ bool is_smooth(const float* values, float step, float farthest, float deepest) {
     return steps == 0;
 }
 
-/// The deepest value within the band: those outside it are of the background. Bands are not always as wide inward as
-/// outward.
+/// The most negative value within the band; values outside the band are minus the background. The inner band is not
+/// always as wide as the outer.
 float deepest_of(const FloatGrid& grid, const std::vector<const Leaf*>& leaves) {
     std::vector<std::int32_t> depths(leaves.size());
     const float background = grid.background();
     parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t l = begin; l < end; ++l) {
             const float* const values = leaves[l]->buffer().data();
-            std::int32_t deepest = 0; // as bits, which are ordered as floats above 0 are
+            std::int32_t deepest = 0; // as bits, which have the order of positive floats
             for (int v = 0; v < int(Leaf::SIZE); ++v) {
                 const float inward = -values[v];
                 const std::int32_t within = inward < background ? std::bit_cast<std::int32_t>(inward) : 0;
@@ -73,7 +73,7 @@ class OutlierFinder {
         widest_ = static_cast<float>(voxel * leaves.extents().asVec3d().length());
     }
 
-    Outliers look_at(const Leaf& leaf) {
+    Outliers outliers_in(const Leaf& leaf) {
         Outliers outliers;
         if (is_smooth_within_others(leaf))
             return outliers;
@@ -86,7 +86,8 @@ class OutlierFinder {
     }
 
   private:
-    /// Active or not: no small step to neighbours, and nothing beyond the background.
+    /// Whether no neighbours in and around the leaf, active or not, differ by more than small_step_, and no value is
+    /// beyond the background.
     bool is_smooth_within_others(const Leaf& leaf) {
         if (!is_smooth(leaf.buffer().data(), small_step_, farthest_, deepest_))
             return false;
@@ -125,12 +126,10 @@ class OutlierFinder {
                 beside[axis] += side;
                 float other = 0.0f;
                 const bool within = at[axis] >> Leaf::LOG2DIM == beside[axis] >> Leaf::LOG2DIM;
-                const bool active =
-                    within ? leaf.probeValue(beside, other) : reader_.probeValue(beside, other);
+                const bool active = within ? leaf.probeValue(beside, other) : reader_.probeValue(beside, other);
                 const bool is_other_side = !active && (value < 0.0f) != (other < 0.0f);
-                const float step = is_other_side
-                                       ? std::fabs(value)
-                                       : std::fabs(std::max(value, deepest_) - std::max(other, deepest_));
+                const float step =
+                    is_other_side ? std::fabs(value) : std::fabs(std::max(value, deepest_) - std::max(other, deepest_));
                 steps += int(step > small_step_) + int(near && step > large_step_);
             }
         return steps >= (near ? 2 : 3) || std::fabs(value) > farthest_;
@@ -182,7 +181,7 @@ Outliers outliers_of(const VdbGrid& level, double voxel) {
     parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
         OutlierFinder own = finder;
         for (std::size_t l = begin; l < end; ++l) {
-            const Outliers of_leaf = own.look_at(*leaves[l]);
+            const Outliers of_leaf = own.outliers_in(*leaves[l]);
             count += of_leaf.count;
             far += of_leaf.far;
         }

@@ -1,4 +1,4 @@
-/// Whether the values of a grid of another program are distances, and of which unit. Internal to grid/.
+/// Checks whether the values of a grid of another program are distances, and in which unit.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
@@ -7,27 +7,28 @@
 
 namespace alcove {
 
-/// How much values change along a unit of length where they are near 0: 1 for distances in scene units. The median
-/// of some thousand voxels, which are cubes of edge `voxel`.
+/// How much values change per unit of length near the zero surface: 1 for distances in scene units. The median over
+/// a few thousand voxels, which are cubes of edge `voxel`.
 double slope_of(const VdbGrid& grid, double voxel);
 
-/// Active voxels whose values no distances are.
+/// The numbers of active voxels whose values are not distances.
 struct Outliers {
-    std::size_t count = 0; ///< other than those of their neighbours and the background allow
-    std::size_t far = 0;   ///< of these, farther from 0 than the grid is wide
+    std::size_t count = 0; ///< inconsistent with their neighbours or the background
+    std::size_t far = 0;   ///< among these, farther from 0 than the grid is wide
 };
 
-/// Looks at every active voxel of a grid of distances whose signs were flood filled. Distances of neighbours along an
-/// axis differ by a voxel at most (S. Osher and R. Fedkiw, "Level Set Methods and Dynamic Implicit Surfaces", 2003,
-/// ch. 2), and so do those at the ends of the band from what is outside it. Odd is what differs by more than 1.15
-/// voxels from two neighbours or by more than 1.5 from one; from three and none where it is 2 voxels or more from 0,
-/// as OpenVDB 10 makes bands of 5 voxels and more with steps of up to 2.3 there. Odd is also what lies beyond the
-/// background, and beside inactive voxels of the other sign their distance counts from 0.
+/// Checks every active voxel of a grid of distances whose signs were flood-filled. Distances of neighbours along an
+/// axis differ by at most one voxel (Osher and Fedkiw 2003, ch. 2), also at the ends of the band from
+/// the values outside it. A value within 2 voxels of 0 is an outlier if it differs by more than 1.15 voxels from
+/// two neighbours or by more than 1.5 voxels from one. Other values are outliers if they differ by more than 1.15
+/// voxels from three neighbours; these are not tested for 1.5 voxels, as OpenVDB 10 builds bands of 5 voxels and
+/// more with steps of up to 2.3 voxels there. Values beyond the background are outliers too. Next to an inactive
+/// voxel of the other sign, a value is compared with 0.
 ///
-/// Level sets of spheres, and filtered, offset, halved and combined ones, have no outliers voxels; OpenVDB makes up to 8 of
-/// them from some closed meshes, more from open ones. On a plane, what is wrong by less than 0.72 voxel is not found, nor
-/// by less than 1.15 where it is 2 voxels or more from 0; in tips and gaps narrower than the band, more. Thread-safe; by
-/// threads of parallel_for. Cost: an eighth of read_grids().
+/// Level sets of spheres, and filtered, offset, halved and combined ones, have no outliers. OpenVDB creates up to 8
+/// of them from some closed meshes, more from open ones. On a plane, errors below 0.72 voxel are not detected, nor
+/// errors below 1.15 voxels in values 2 voxels or more from 0; in tips and gaps narrower than the band, larger
+/// errors are missed too. Thread-safe; uses the threads of parallel_for. Cost: an eighth of read_grids().
 Outliers outliers_of(const VdbGrid& grid, double voxel);
 
 }

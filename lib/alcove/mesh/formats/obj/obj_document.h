@@ -1,4 +1,4 @@
-/// An OBJ file as it was, and where its vertices stand in it.
+/// The text of an OBJ file, and the positions of its vertices in it.
 #pragma once
 
 #include "alcove/mesh/detail/source.h"
@@ -21,7 +21,7 @@ class ObjDocument : public SourceDocument {
 
     std::size_t weights = 0; ///< vertices whose fourth coordinate is not 1
 
-    /// Lines a Mesh has no place for: what they are ("'usemtl' lines") and how many, none of them 0.
+    /// Lines that a Mesh cannot represent: a description ("'usemtl' lines") and a count above 0.
     std::vector<std::pair<std::string, std::size_t>> other_lines;
 };
 

@@ -1,5 +1,5 @@
-// Format: Wavefront Technologies, "Advanced Visualizer Manual", appendix B (1993), and the vertex colours
-// many programs write behind the coordinates of a 'v' line.
+// Format: Wavefront (1993), and the vertex colours that many programs write after the coordinates of
+// a 'v' line.
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
@@ -16,24 +16,23 @@ namespace {
 
 /// Keywords of lines that are kept as text only.
 constexpr std::array<std::string_view, 37> text_keywords{
-    "usemtl",   "mtllib",   "g",    "o",      "s",      "l",          "p",         "vp",
-    "mg",       "deg",      "bmat", "step",   "cstype", "curv",       "curv2",     "surf",
-    "parm",     "trim",     "hole", "scrv",   "sp",     "end",        "con",       "bevel",
-    "c_interp", "d_interp", "lod",  "maplib", "usemap", "shadow_obj", "trace_obj", "ctech",
-    "stech",    "call",     "csh",  "res",    "bzp"};
+    "usemtl",    "mtllib", "g",      "o",     "s",        "l",        "p",    "vp",     "mg",     "deg",
+    "bmat",      "step",   "cstype", "curv",  "curv2",    "surf",     "parm", "trim",   "hole",   "scrv",
+    "sp",        "end",    "con",    "bevel", "c_interp", "d_interp", "lod",  "maplib", "usemap", "shadow_obj",
+    "trace_obj", "ctech",  "stech",  "call",  "csh",      "res",      "bzp"};
 
-/// The texture coordinate and normal a corner names, counted from 1; 0 for none.
+/// The texture coordinate and normal of a corner, counted from 1; 0 for none.
 struct CornerReference {
     std::uint32_t uv = 0, normal = 0;
 };
 
-/// The largest index of one kind and where it stands: indices may run ahead of what they name.
+/// The largest index of one kind and its position. It is checked at the end, as faces may precede their vertices.
 struct LargestIndex {
     std::int64_t index = 0;
     const char* place = nullptr;
 };
 
-/// Ordered by vertex, then by value, to find the different normals of each vertex.
+/// Ordered by vertex, then by value, to find the distinct normals of each vertex.
 struct VertexNormal {
     std::uint32_t vertex;
     float x, y, z;
@@ -87,14 +86,13 @@ class ObjReader {
 
     double number_on_line(const char* expected) {
         if (text_.at_line_end())
-            text_.fail(std::string("the line ends early: ") + expected +
-                       " is missing; export the file again");
+            text_.fail(std::string("the line ends early: ") + expected + " is missing; export the file again");
         return text_.number(expected);
     }
 
     void check_line_end() {
         if (!text_.at_line_end())
-            text_.fail(in_quotes(text_.peek()) + " stands where the line should end; export the file again");
+            text_.fail("unexpected " + in_quotes(text_.peek()) + " where the line should end; export the file again");
     }
 
     void read_uv() {
@@ -152,11 +150,11 @@ class ObjReader {
     }
 
     [[noreturn]] void fail_corner() {
-        text_.fail(in_quotes(text_.peek()) + " is no corner of a face; vertex, vertex/uv, vertex//normal or "
-                                             "vertex/uv/normal, whole numbers, are expected");
+        text_.fail(in_quotes(text_.peek()) + " is not a corner of a face; whole numbers vertex, vertex/uv, "
+                                             "vertex//normal or vertex/uv/normal are expected");
     }
 
-    /// The index at `at`, counted from 0; a negative one counts back from the last of `so_far`.
+    /// The index at `at`, counted from 0; a negative one counts back from the last of the `so_far` items read.
     std::uint32_t index_at(const char*& at, std::size_t so_far, LargestIndex& largest, const char* place) {
         const bool negative = *at == '-';
         at += negative ? 1 : 0;
@@ -178,8 +176,8 @@ class ObjReader {
     void check_range(const LargestIndex& largest, std::size_t count, const char* what) const {
         if (largest.index > static_cast<std::int64_t>(count))
             file_.fail_at_line(largest.place, "index " + std::to_string(largest.index) +
-                                                  " is out of range: the file holds " + grouped(count) + " " +
-                                                  what + "; export it again");
+                                                  " is out of range: the file has " + grouped(count) + " " + what +
+                                                  "; export it again");
     }
 
     void finish_colors() {
@@ -195,13 +193,13 @@ class ObjReader {
         for (const auto& [r, g, b, a] : colors_) {
             const bool colored = r >= 0.0 || g >= 0.0 || b >= 0.0;
             without += !colored;
-            mesh_.vertex_colors.push_back(
-                colored ? Color{byte(r), byte(g), byte(b), a < 0.0 ? std::uint8_t(255) : byte(a)}
-                        : Color{255, 255, 255, 255});
+            mesh_.vertex_colors.push_back(colored
+                                              ? Color{byte(r), byte(g), byte(b), a < 0.0 ? std::uint8_t(255) : byte(a)}
+                                              : Color{255, 255, 255, 255});
         }
         if (without > 0)
             mesh_.warnings.push_back(counted(without, "vertex has", "vertices have") +
-                                     " no colour beside others that do; taken as white");
+                                     " no colour, unlike others; white is used");
     }
 
     void finish_uvs() {
@@ -219,9 +217,7 @@ class ObjReader {
                 known = uv;
             one_per_vertex &= known == uv || (known != 0 && uv != 0 && uvs_[known - 1] == uvs_[uv - 1]);
         }
-        const auto value = [&](std::uint32_t uv) {
-            return uv == 0 || uv == unset ? Vec2(0.0f) : uvs_[uv - 1];
-        };
+        const auto value = [&](std::uint32_t uv) { return uv == 0 || uv == unset ? Vec2(0.0f) : uvs_[uv - 1]; };
         if (one_per_vertex)
             for (const std::uint32_t uv : first)
                 mesh_.vertex_uvs.push_back(value(uv));
@@ -230,10 +226,10 @@ class ObjReader {
                 mesh_.corner_uvs.push_back(value(reference.uv));
         if (without > 0)
             mesh_.warnings.push_back(counted(without, "face corner has", "face corners have") +
-                                     " no texture coordinate beside others that do; (0, 0) stands for it");
+                                     " no texture coordinate, unlike others; (0, 0) is used");
     }
 
-    /// A vertex with several normals gets the direction of the sum of the different ones.
+    /// A vertex with several normals gets the normalized sum of the distinct ones.
     void finish_normals() {
         if (!has_normals_)
             return;
@@ -270,8 +266,8 @@ class ObjReader {
 
     void finish_document() {
         if (unknown_lines_ > 0)
-            mesh_.warnings.push_back(counted(unknown_lines_, "line begins", "lines begin") +
-                                     " with no OBJ keyword, the first with " + in_quotes(first_unknown_) +
+            mesh_.warnings.push_back(counted(unknown_lines_, "line does", "lines do") +
+                                     " not begin with an OBJ keyword, the first with " + in_quotes(first_unknown_) +
                                      "; kept as text");
         for (std::size_t k = 0; k < text_keywords.size(); ++k)
             if (text_lines_[k] > 0)
@@ -298,7 +294,7 @@ class ObjReader {
     std::vector<Vec2> uvs_;
     std::vector<Vec3> normals_;
     std::vector<std::array<double, 4>> colors_;
-    std::vector<CornerReference> references_; ///< one a corner, from the first corner on that has one
+    std::vector<CornerReference> references_; ///< one per corner; empty until a corner has one
     bool has_uvs_ = false, has_normals_ = false;
     LargestIndex largest_vertex_, largest_uv_, largest_normal_;
     std::array<std::size_t, text_keywords.size()> text_lines_{};

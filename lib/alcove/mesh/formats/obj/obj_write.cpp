@@ -21,7 +21,7 @@ void append(Buffer& to, std::string_view text) {
     to.append(text.data(), text.data() + text.size());
 }
 
-/// The shortest decimal that reads back as the same float, where the value is one, else as the same double.
+/// The shortest decimal that reads back as the same float if the value is one, otherwise as the same double.
 void append_number(Buffer& to, double value) {
     const auto single = static_cast<float>(value);
     if (static_cast<double>(single) == value)
@@ -30,7 +30,7 @@ void append_number(Buffer& to, double value) {
         fmt::format_to(std::back_inserter(to), " {}", value);
 }
 
-/// " 0.5020" for 128: four decimals tell all 256 apart.
+/// " 0.5020" for 128: four decimals distinguish all 256 values.
 class ColorWriter {
   public:
     ColorWriter() {
@@ -46,7 +46,7 @@ class ColorWriter {
     std::array<std::string, 256> decimals_;
 };
 
-/// The text with what follows x y z on each 'v' line replaced by the colour.
+/// The text with the colour in place of whatever follows x y z on each 'v' line.
 Buffer recolored(const ObjDocument& document, const FileBytes& text, const std::vector<Color>& colors) {
     const ColorWriter writer;
     Buffer to;
@@ -67,15 +67,15 @@ Buffer recolored(const ObjDocument& document, const FileBytes& text, const std::
     return to;
 }
 
-Buffer composed(const Mesh& mesh, const WriteOptions& options) {
+Buffer composed(const Mesh& mesh) {
     Buffer to;
-    for (std::string comment : options.comments) {
+    for (std::string comment : mesh.added_comments) {
         std::replace_if(
             comment.begin(), comment.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
         append(to, "# " + comment + "\n");
     }
     const ColorWriter writer;
-    const std::vector<Color>& colors = options.colors.empty() ? mesh.vertex_colors : options.colors;
+    const std::vector<Color>& colors = mesh.added_colors.empty() ? mesh.vertex_colors : mesh.added_colors;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
         append(to, "v");
         for (int c = 0; c < 3; ++c)
@@ -112,12 +112,12 @@ Buffer composed(const Mesh& mesh, const WriteOptions& options) {
     return to;
 }
 
-/// The properties and elements of a PLY input that an OBJ has no place for.
+/// Lists the properties and elements of a PLY input that an OBJ cannot store.
 void list_lost(const PlyDocument& document, std::vector<std::string>& lost) {
-    constexpr std::array<std::string_view, 18> of_vertices{
-        "x", "y",         "z",         "nx", "ny", "nz",  "s",     "t",    "u",
-        "v", "texture_u", "texture_v", "s0", "t0", "red", "green", "blue", "alpha"};
-    // The colours of faces are told by the caller, whatever file they come from.
+    constexpr std::array<std::string_view, 18> of_vertices{"x",  "y",  "z",   "nx",    "ny",        "nz",
+                                                           "s",  "t",  "u",   "v",     "texture_u", "texture_v",
+                                                           "s0", "t0", "red", "green", "blue",      "alpha"};
+    // The caller reports the colours of faces, for all input formats.
     constexpr std::array<std::string_view, 7> of_faces{"vertex_indices", "vertex_index", "texcoord", "red",
                                                        "green",          "blue",         "alpha"};
     for (const PlyElement& element : document.elements) {
@@ -135,40 +135,39 @@ void list_lost(const PlyDocument& document, std::vector<std::string>& lost) {
                                in_quotes(element.name));
     }
     if (!document.comments.empty())
-        lost.push_back("not stored in OBJ: " +
-                       counted(document.comments.size(), "comment line", "comment lines"));
+        lost.push_back("not stored in OBJ: " + counted(document.comments.size(), "comment line", "comment lines"));
 }
 
 }
 
-std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file,
-                                   const WriteOptions& options) {
+std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file) {
     std::vector<std::string> lost;
     for (const Attribute& attribute : mesh.attributes)
-        lost.push_back("not stored in OBJ: attribute " + in_quotes(attribute.name));
-    const std::vector<Color>& colors = options.colors.empty() ? mesh.vertex_colors : options.colors;
+        if (mesh.added_colors.empty() ||
+            (attribute.name != "ao" && attribute.name != "quality")) // those are the colours
+            lost.push_back("not stored in OBJ: attribute " + in_quotes(attribute.name));
+    const std::vector<Color>& colors = mesh.added_colors.empty() ? mesh.vertex_colors : mesh.added_colors;
     if (std::any_of(colors.begin(), colors.end(), [](const Color& c) { return c[3] != 255; }))
         lost.push_back("not stored in OBJ: the alpha of the vertex colours");
 
     AtomicFile output(file);
     const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get());
     if (text != nullptr && text->vertex_lines.size() == mesh.vertex_count()) {
-        if (options.colors.empty()) {
+        if (mesh.added_colors.empty()) {
             output.write(text->text);
         } else {
-            const Buffer bytes = recolored(*text, FileBytes(file, text->text), options.colors);
+            const Buffer bytes = recolored(*text, FileBytes(file, text->text), mesh.added_colors);
             output.write({bytes.data(), bytes.size()});
             if (text->weights > 0)
-                lost.push_back("not stored in OBJ: the weights of " +
-                               counted(text->weights, "vertex", "vertices") +
-                               ", where the colours stand now");
+                lost.push_back("not stored in OBJ: the weights of " + counted(text->weights, "vertex", "vertices") +
+                               ", which the colours replace");
         }
     } else {
         if (const auto* document = dynamic_cast<const PlyDocument*>(mesh.source.get()))
             list_lost(*document, lost);
         if (!mesh.face_colors.empty())
             lost.push_back("not stored in OBJ: the colours of the faces");
-        const Buffer bytes = composed(mesh, options);
+        const Buffer bytes = composed(mesh);
         output.write({bytes.data(), bytes.size()});
     }
     output.commit();

@@ -1,4 +1,4 @@
-// Format: Geomview manual, "OFF Files": [ST][C][N][4][n]OFF [BINARY].
+// Format: the Geomview manual, [ST][C][N][4][n]OFF [BINARY].
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/byte_reader.h"
 #include "alcove/mesh/formats/formats.h"
@@ -12,10 +12,10 @@
 namespace alcove {
 namespace {
 
-/// Tokens counted on the rest of a line: more than any colour and texture coordinate have.
+/// Limit for counting tokens on the rest of a line: more than any colour with a texture coordinate has.
 constexpr std::size_t most_tokens = 8;
 
-/// What the header keyword announces for every vertex.
+/// What the header keyword declares for every vertex.
 struct Layout {
     bool uvs = false, colors = false, normals = false, weights = false, dimension = false;
 };
@@ -35,7 +35,7 @@ std::optional<Layout> layout_named(std::string_view keyword) {
     return keyword == "OFF" ? std::optional(layout) : std::nullopt;
 }
 
-/// Colours as the file gives them; whether they run to 1 or to 255 shows only when all are known.
+/// Colours as in the file. Whether they range to 1 or to 255 is known only after all are read.
 class ColorList {
   public:
     void add(std::size_t index, const std::array<double, 4>& rgba, std::size_t components, bool fraction) {
@@ -49,7 +49,7 @@ class ColorList {
     }
     std::size_t size() const { return indices_.size(); }
 
-    /// One colour for each of `count`; the format's default, two thirds grey, where none was given.
+    /// `count` colours; those not given are the default of the format, a grey of two thirds.
     std::vector<Color> resolved(std::size_t count) const {
         std::vector<Color> colors(count, Color{170, 170, 170, 255});
         const double scale = fraction_ || largest_ <= 1.0 ? 255.0 : 1.0;
@@ -83,15 +83,14 @@ class OffReader {
         if (face_colors_.size() > 0) {
             mesh_.face_colors = face_colors_.resolved(faces_);
             if (face_colors_.size() < faces_)
-                warn(faces_ - face_colors_.size(), "face has", "faces have",
-                     "no colour of their own beside others that do; written as grey");
+                warn(faces_ - face_colors_.size(), "face has", "faces have", "no colour, unlike others; grey is used");
         }
         if (map_indices_ > 0)
             warn(map_indices_, "colour is", "colours are",
                  "an index into a colour map that is not in the file; left out");
-        if (unannounced_ > 0)
-            warn(unannounced_, "vertex line holds", "vertex lines hold",
-                 "more values than the header keyword announces (COFF, NOFF, ...); left out");
+        if (undeclared_ > 0)
+            warn(undeclared_, "vertex line has", "vertex lines have",
+                 "more values than the header keyword declares (COFF, NOFF, ...); left out");
         return std::move(mesh_);
     }
 
@@ -113,19 +112,19 @@ class OffReader {
             }
         } else if (keyword.empty() || !(keyword[0] >= '0' && keyword[0] <= '9')) {
             text_.fail(in_quotes(keyword) +
-                       " is no OFF keyword; a file begins with [ST][C][N][4][n]OFF or its counts");
+                       " is not an OFF keyword; a file begins with [ST][C][N][4][n]OFF or its counts");
         }
     }
 
-    void check_counts(std::int64_t vertices, std::int64_t faces, std::size_t vertex_bytes,
-                      std::size_t face_bytes, std::size_t left, const auto& fail) {
+    void check_counts(std::int64_t vertices, std::int64_t faces, std::size_t vertex_bytes, std::size_t face_bytes,
+                      std::size_t left, const auto& fail) {
         if (vertices < 0 || faces < 0)
             fail("a count is negative; export the file again");
         vertices_ = static_cast<std::size_t>(vertices);
         faces_ = static_cast<std::size_t>(faces);
         if (vertices_ > (left + 1) / vertex_bytes || faces_ > (left + 1) / face_bytes)
             fail(counted(vertices_, "vertex", "vertices") + " and " + counted(faces_, "face", "faces") +
-                 " are announced but only " + grouped(left) + " bytes follow; copy or export the file again");
+                 " are declared but only " + grouped(left) + " bytes follow; copy or export the file again");
         mesh_.positions.reserve(vertices_);
         mesh_.face_begin.reserve(faces_ + 1);
     }
@@ -149,11 +148,10 @@ class OffReader {
         for (std::size_t f = 0; f < faces_; ++f)
             read_text_face(f);
         if (!text_.at_end())
-            mesh_.warnings.push_back(grouped(text_.bytes_left()) +
-                                     " bytes behind the last face were not read");
+            mesh_.warnings.push_back(grouped(text_.bytes_left()) + " bytes after the last face were not read");
     }
 
-    /// Whether an edge count stands on the line below the two others.
+    /// Whether the line after the two other counts has an edge count.
     bool next_line_is_one_number() {
         TextScanner ahead(text_);
         return !ahead.at_end() && ahead.tokens_on_line(2) == 1;
@@ -186,23 +184,23 @@ class OffReader {
         }
         if (text_.at_line_end())
             return;
-        // Vertices may share a line; 3 or 4 more values on the line of each are unannounced colours or
-        // normals.
+        // Vertices may share a line; but if the line of each has 3 or 4 more values, these are undeclared colours
+        // or normals.
         const std::size_t left = text_.tokens_on_line(most_tokens);
-        if ((left == 3 || left == 4) && (v == 0 ? every_vertex_line_has(left) : unannounced_ == v)) {
-            ++unannounced_;
+        if ((left == 3 || left == 4) && (v == 0 ? every_vertex_line_has(left) : undeclared_ == v)) {
+            ++undeclared_;
             text_.next_line();
         }
     }
 
-    /// Whether the line of each vertex holds `more` values than announced; the first line is read up to
-    /// there.
+    /// Whether the line of each vertex has `more` values than declared. Called after the declared values of the
+    /// first line.
     bool every_vertex_line_has(std::size_t more) const {
-        const std::size_t announced = 3u + layout_.weights + 3u * layout_.normals;
+        const std::size_t declared = 3u + layout_.weights + 3u * layout_.normals;
         TextScanner ahead(text_);
         for (std::size_t v = 1; v < vertices_; ++v) {
             ahead.next_line();
-            if (ahead.at_end() || ahead.tokens_on_line(announced + most_tokens) != announced + more)
+            if (ahead.at_end() || ahead.tokens_on_line(declared + most_tokens) != declared + more)
                 return false;
         }
         return true;
@@ -251,8 +249,8 @@ class OffReader {
         const auto vertices = bytes.read<std::int32_t>("the number of vertices");
         const auto faces = bytes.read<std::int32_t>("the number of faces");
         bytes.read<std::int32_t>("the number of edges");
-        const std::size_t vertex_bytes = sizeof(float) * (3u + layout_.weights + 3u * layout_.normals +
-                                                          4u * layout_.colors + 2u * layout_.uvs);
+        const std::size_t vertex_bytes =
+            sizeof(float) * (3u + layout_.weights + 3u * layout_.normals + 4u * layout_.colors + 2u * layout_.uvs);
         check_counts(vertices, faces, vertex_bytes, 8, bytes.bytes_left(),
                      [&](const std::string& message) { bytes.fail(message); });
         for (std::size_t v = 0; v < vertices_; ++v)
@@ -260,8 +258,7 @@ class OffReader {
         for (std::size_t f = 0; f < faces_; ++f)
             read_binary_face(bytes, f);
         if (bytes.bytes_left() > 0)
-            mesh_.warnings.push_back(grouped(bytes.bytes_left()) +
-                                     " bytes behind the last face were not read");
+            mesh_.warnings.push_back(grouped(bytes.bytes_left()) + " bytes after the last face were not read");
     }
 
     void read_binary_vertex(ByteReader& bytes, std::size_t v) {
@@ -321,7 +318,7 @@ class OffReader {
     Mesh mesh_;
     Layout layout_;
     bool binary_ = false;
-    std::size_t vertices_ = 0, faces_ = 0, map_indices_ = 0, unannounced_ = 0;
+    std::size_t vertices_ = 0, faces_ = 0, map_indices_ = 0, undeclared_ = 0;
     ColorList vertex_colors_, face_colors_;
 };
 

@@ -39,8 +39,7 @@ std::byte* store_count(std::byte* to, std::size_t count) {
 }
 
 std::byte* store_count(std::byte* to, std::size_t count, PlyType type) {
-    return type == PlyType::uint8 ? store_count<std::uint8_t>(to, count)
-                                  : store_count<std::int32_t>(to, count);
+    return type == PlyType::uint8 ? store_count<std::uint8_t>(to, count) : store_count<std::int32_t>(to, count);
 }
 
 void add_color_properties(PlyElement& element) {
@@ -94,8 +93,7 @@ PlyElement face_element(const Mesh& mesh) {
     if (has_colors)
         add_color_properties(element);
 
-    std::vector<std::byte> rows(element.count * element.smallest_row() +
-                                mesh.corners.size() * sizeof(std::uint32_t) +
+    std::vector<std::byte> rows(element.count * element.smallest_row() + mesh.corners.size() * sizeof(std::uint32_t) +
                                 mesh.corner_uvs.size() * sizeof(Vec2));
     std::byte* to = rows.data();
     for (std::size_t f = 0; f < element.count; ++f) {
@@ -103,8 +101,7 @@ PlyElement face_element(const Mesh& mesh) {
         to = store_count(to, face.size(), count_type);
         to = std::copy_n(std::as_bytes(face).data(), face.size_bytes(), to);
         if (has_uvs) {
-            const auto uvs =
-                std::as_bytes(std::span(mesh.corner_uvs).subspan(mesh.face_begin[f], face.size()));
+            const auto uvs = std::as_bytes(std::span(mesh.corner_uvs).subspan(mesh.face_begin[f], face.size()));
             to = store_count(to, 2 * face.size(), uv_count_type);
             to = std::copy(uvs.begin(), uvs.end(), to);
         }
@@ -128,15 +125,15 @@ std::optional<PlyType> ply_type_named(std::string_view name) {
     return {};
 }
 
-void PlyElement::keep(std::vector<std::byte> made) {
-    const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(made));
+void PlyElement::keep(std::vector<std::byte> new_rows) {
+    const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(new_rows));
     rows = *kept;
     keeper = kept;
 }
 
 const PlyProperty* PlyElement::find(std::string_view property) const {
-    const auto found = std::find_if(properties.begin(), properties.end(),
-                                    [&](const PlyProperty& p) { return p.name == property; });
+    const auto found =
+        std::find_if(properties.begin(), properties.end(), [&](const PlyProperty& p) { return p.name == property; });
     return found == properties.end() ? nullptr : &*found;
 }
 
@@ -153,8 +150,8 @@ std::size_t PlyElement::smallest_row() const {
 }
 
 const PlyElement* PlyDocument::find(std::string_view element) const {
-    const auto found = std::find_if(elements.begin(), elements.end(),
-                                    [&](const PlyElement& e) { return e.name == element; });
+    const auto found =
+        std::find_if(elements.begin(), elements.end(), [&](const PlyElement& e) { return e.name == element; });
     return found == elements.end() ? nullptr : &*found;
 }
 

@@ -1,5 +1,5 @@
-/// A PLY file as it was: every comment, element, property and value, in memory order of the binary format.
-/// Format: Greg Turk, "The PLY Polygon File Format" (1994).
+/// The contents of a PLY file: every comment, element, property and value, in the layout of the binary format (Turk
+/// 1994).
 #pragma once
 
 #include "alcove/mesh/detail/source.h"
@@ -69,25 +69,25 @@ inline double number_at(const std::byte* bytes, PlyType type) {
 struct PlyProperty {
     std::string name;
     PlyType type = PlyType::float32;
-    std::optional<PlyType> count_type; ///< set for a list: the type of the number in front of its items
+    std::optional<PlyType> count_type; ///< set for a list: the type of its count, which precedes the items
 };
 
 struct PlyElement {
     std::string name;
     std::size_t count = 0;
     std::vector<PlyProperty> properties;
-    /// All of them one after another, packed, little endian; in memory that `keeper` holds.
+    /// All rows, packed and little endian, in memory that `keeper` owns.
     std::span<const std::byte> rows{};
     std::shared_ptr<const void> keeper{};
 
-    /// Makes these the rows, kept by this element and its copies.
-    void keep(std::vector<std::byte> made);
+    /// Sets the rows, which this element and its copies own.
+    void keep(std::vector<std::byte> new_rows);
     const PlyProperty* find(std::string_view property) const;
     bool has_lists() const;
-    std::size_t smallest_row() const; ///< bytes of a row whose lists are empty
+    std::size_t smallest_row() const; ///< size in bytes of a row with empty lists
 };
 
-/// The bytes one value, or one list with its count, takes at `bytes`.
+/// The size in bytes of the value, or the list with its count, at `bytes`.
 inline std::size_t stored_size(const PlyProperty& property, const std::byte* bytes) {
     if (!property.count_type)
         return size_of(property.type);
@@ -105,9 +105,9 @@ class PlyDocument : public SourceDocument {
     bool has_comment(std::string_view beginning) const override;
 };
 
-/// The document of a mesh that came from elsewhere: `vertex` with x y z, and nx ny nz, s t, red green blue
-/// alpha where the mesh has them; `face` with vertex_indices, and texcoord, red green blue alpha. Coordinates
-/// become float unless that moves some vertex by more than 1e-6 of the diagonal; then double.
+/// A document for a mesh that was not read from a PLY file: `vertex` with x y z, and nx ny nz, s t, red green blue
+/// alpha if the mesh has them; `face` with vertex_indices, and texcoord, red green blue alpha if it has them.
+/// Coordinates are float, or double if float would move a vertex by more than 1e-6 of the diagonal.
 PlyDocument make_ply_document(const Mesh& mesh);
 
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t longest_line = 65536;
 constexpr std::size_t most_names =
-    4096; // elements, and properties of one element: looking for doubles is quadratic
+    4096; // elements, or properties of one element: the search for duplicates is quadratic
 
 std::string_view without_blanks_around(std::string_view text) {
     constexpr std::string_view blanks = " \t\r\v\f";
@@ -34,7 +34,7 @@ class HeaderParser {
     explicit HeaderParser(const FileBytes& file) : file_(file), at_(file.begin()) {
         const std::string_view start = file.view().substr(0, longest_line);
         const std::size_t first_end = start.find_first_of("\r\n");
-        // A lone CR ends lines only where the first line says so: binary rows may begin with LF.
+        // CR alone ends lines only if it ends the first one: binary rows may begin with LF.
         if (first_end != std::string_view::npos && start[first_end] == '\r' &&
             !(first_end + 1 < start.size() && start[first_end + 1] == '\n'))
             line_end_ = '\r';
@@ -82,7 +82,7 @@ class HeaderParser {
             parse_property(words);
         else
             fail(in_quotes(words[0]) +
-                 " is no keyword of a PLY header; is the header damaged or end_header missing?");
+                 " is not a keyword of a PLY header; is the header damaged or end_header missing?");
     }
 
     void parse_format(const std::vector<std::string_view>& words) {
@@ -99,7 +99,7 @@ class HeaderParser {
             header_.format = PlyFormat::big_endian;
         else
             fail(in_quotes(words[1]) +
-                 " is no PLY format; ascii, binary_little_endian and binary_big_endian are");
+                 " is not a PLY format; these are ascii, binary_little_endian and binary_big_endian");
     }
 
     void parse_element(const std::vector<std::string_view>& words) {
@@ -121,7 +121,7 @@ class HeaderParser {
 
     void parse_property(const std::vector<std::string_view>& words) {
         if (header_.document.elements.empty())
-            fail("a property in front of the first element; is an element line missing?");
+            fail("a property before the first element; is an element line missing?");
         const bool is_list = words.size() > 1 && words[1] == "list";
         if (words.size() != (is_list ? 5u : 3u))
             fail("a property line must read 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
@@ -130,7 +130,7 @@ class HeaderParser {
         if (is_list) {
             property.count_type = type_named(words[2]);
             if (!is_integral(*property.count_type))
-                fail("a list cannot be counted in " + in_quotes(words[2]) + "; export the file again");
+                fail("the count of a list cannot be of type " + in_quotes(words[2]) + "; export the file again");
         }
         if (element.find(property.name) != nullptr)
             fail("a second property " + in_quotes(property.name) + " of element " + in_quotes(element.name) +
@@ -144,7 +144,7 @@ class HeaderParser {
         const auto type = ply_type_named(name);
         if (!type)
             fail(in_quotes(name) +
-                 " is no PLY type; char, uchar, short, ushort, int, uint, float and double are");
+                 " is not a PLY type; these are char, uchar, short, ushort, int, uint, float and double");
         return *type;
     }
 

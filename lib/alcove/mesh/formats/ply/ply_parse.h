@@ -1,4 +1,4 @@
-/// The two halves of a PLY file: the header in words, then the rows it announces.
+/// Parses the two parts of a PLY file: the header, then the rows that it declares.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
@@ -10,23 +10,21 @@ enum class PlyFormat { ascii, little_endian, big_endian };
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
-    PlyDocument document;                   ///< its elements without rows
-    const char* body = nullptr;             ///< the first byte behind end_header
-    std::vector<const char*> element_line;  ///< where each element is announced
+    PlyDocument document;                   ///< elements are without rows
+    const char* body = nullptr;             ///< the first byte after end_header
+    std::vector<const char*> element_line;  ///< where each element is declared
     std::vector<const char*> element_begin; ///< where the rows of each element begin, once they are parsed
 };
 
-/// \throw InputError naming the line: a keyword, type or count that is none, a name used twice, no
-/// end_header.
+/// \throw InputError with the line: an invalid keyword, type or count, a duplicate name, no end_header.
 PlyHeader parse_ply_header(const FileBytes& file);
 
-/// Fills the rows of all elements, converted to the binary little-endian layout. Counts are checked against
-/// the bytes left before memory is taken for them. \return bytes behind the last row. \throw InputError
-/// naming the line or byte.
+/// Fills the rows of all elements, converted to the binary little-endian layout. Checks counts against the bytes left
+/// before it allocates memory. \return the number of bytes after the last row. \throw InputError with the line or byte.
 std::size_t parse_ply_rows(const FileBytes& file, PlyHeader& header);
 
-/// \throw InputError for something found in a parsed row: the line of an ascii file, else the byte, `offset`
-/// bytes behind the first of the element.
+/// \throw InputError for an error in a parsed row, with the line of an ascii file, or the byte at `offset` from the
+/// start of the element.
 [[noreturn]] void fail_in_row(const FileBytes& file, const PlyHeader& header, const PlyElement& element,
                               std::size_t row, std::size_t offset, const std::string& message);
 

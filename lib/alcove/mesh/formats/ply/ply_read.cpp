@@ -11,11 +11,11 @@
 namespace alcove {
 namespace {
 
-/// Calls f(row, bytes of that property) for all rows.
+/// Calls f(row, bytes of the property) for all rows.
 template <class F>
 void for_each_value(const PlyElement& element, const PlyProperty& wanted, F&& f) {
     if (element.count == 0)
-        return; // there may be no memory of which to count bytes
+        return; // the pointer may be null
     const std::byte* at = element.rows.data();
     if (!element.has_lists()) {
         const std::size_t stride = element.smallest_row();
@@ -73,19 +73,20 @@ void check_header(const FileBytes& file, const PlyHeader& header) {
     const PlyElement* vertices = header.document.find("vertex");
     const PlyElement* faces = header.document.find("face");
     if (vertices == nullptr)
-        fail("the header names no element 'vertex'; export the file again");
+        fail("the header declares no element 'vertex'; export the file again");
     for (const std::string_view name : {"x", "y", "z"}) {
         const PlyProperty* property = vertices->find(name);
         if (property == nullptr)
-            fail("the header gives the vertices no property " + in_quotes(name) + "; export the file again");
+            fail("the header declares no property " + in_quotes(name) + " of the vertices; export the file again");
         if (property->count_type)
-            fail("the header makes " + in_quotes(name) +
-                 " a list where one number is needed; export the file again");
+            fail("the header declares " + in_quotes(name) +
+                 " as a list where one number is needed; export the file again");
     }
     if (faces == nullptr && header.document.find("tristrips") != nullptr)
         fail("the header stores the surface as triangle strips; export it with faces");
     if (faces != nullptr && faces->count > 0 && corner_list(*faces) == nullptr)
-        fail("the header gives the faces no list of whole numbers 'vertex_indices'; export the file again");
+        fail("the header declares no list of whole numbers 'vertex_indices' of the faces; export the file "
+             "again");
 }
 
 void read_normals(const PlyElement& vertices, Mesh& mesh) {
@@ -105,7 +106,7 @@ void read_vertex_uvs(const PlyElement& vertices, Mesh& mesh) {
             return read_components(vertices, *properties, mesh.vertex_uvs);
 }
 
-/// A colour component as a byte: floats run to 1, ushorts to 65535, the other types to 255.
+/// A colour component as a byte: floats range to 1, ushorts to 65535, the other types to 255.
 std::uint8_t color_component(double value, PlyType type) {
     if (!is_integral(type))
         value *= 255.0;
@@ -144,8 +145,7 @@ void read_faces(const FileBytes& file, const PlyHeader& header, const PlyElement
             if (index < 0 || index >= vertices)
                 fail_in_row(file, header, faces, row, static_cast<std::size_t>(bytes - faces.rows.data()),
                             "vertex index " + std::to_string(index) + " is out of range: there are " +
-                                grouped(mesh.vertex_count()) +
-                                " vertices, counted from 0; export the file again");
+                                grouped(mesh.vertex_count()) + " vertices, counted from 0; export the file again");
             mesh.corners.push_back(static_cast<std::uint32_t>(index));
         }
         close_face(mesh);
@@ -173,15 +173,14 @@ void read_corner_uvs(const PlyElement& faces, Mesh& mesh) {
         mesh.corner_uvs.clear();
     else if (without > 0)
         mesh.warnings.push_back(counted(without, "face has", "faces have") +
-                                " no texture coordinates for each corner; (0, 0) stands for them");
+                                " no texture coordinates for each corner; (0, 0) is used");
 }
 
 }
 
 bool begins_as_ply(const FileBytes& file) {
     const std::string_view bytes = file.view();
-    return bytes.starts_with("ply") &&
-           (bytes.size() == 3 || bytes.substr(3, 1).find_first_of(" \t\r\n") == 0);
+    return bytes.starts_with("ply") && (bytes.size() == 3 || bytes.substr(3, 1).find_first_of(" \t\r\n") == 0);
 }
 
 Mesh read_ply(const FileBytes& file) {
@@ -192,13 +191,12 @@ Mesh read_ply(const FileBytes& file) {
 
     Mesh mesh;
     if (const std::size_t left = parse_ply_rows(file, header); left > 0)
-        mesh.warnings.push_back(grouped(left) + " bytes behind the last row were not read");
+        mesh.warnings.push_back(grouped(left) + " bytes after the last row were not read");
     if (faces == nullptr)
         fail_without_faces(file, header.body - 1, vertices->count);
     if (faces->count == 0)
-        fail_without_faces(
-            file, header.element_line[static_cast<std::size_t>(faces - header.document.elements.data())],
-            vertices->count);
+        fail_without_faces(file, header.element_line[static_cast<std::size_t>(faces - header.document.elements.data())],
+                           vertices->count);
     read_components(*vertices, *find_all<3>(*vertices, {"x", "y", "z"}), mesh.positions);
     read_normals(*vertices, mesh);
     read_vertex_uvs(*vertices, mesh);

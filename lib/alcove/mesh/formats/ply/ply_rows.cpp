@@ -11,13 +11,13 @@
 namespace alcove {
 namespace {
 
-/// Values appended to the rows of an element by way of a block that stays in the cache.
+/// Appends values to the rows of an element through a block that stays in the cache.
 class RowBuffer {
   public:
-    /// The rows will take no more than `most` bytes.
-    RowBuffer(PlyElement& element, std::size_t most) : element_(element), most_(most) {}
+    /// The rows take at most `max_bytes`.
+    RowBuffer(PlyElement& element, std::size_t max_bytes) : element_(element), max_bytes_(max_bytes) {}
 
-    /// The place of the next value, of at most 8 bytes; good until the next call.
+    /// Memory for the next value, of at most 8 bytes; valid until the next call.
     std::byte* extend(std::size_t bytes) {
         if (block_.size() - used_ < bytes)
             flush();
@@ -25,7 +25,7 @@ class RowBuffer {
         return block_.data() + used_ - bytes;
     }
     void end_row() { ++ended_; }
-    /// Gives all of them to the element.
+    /// Moves all rows to the element.
     void finish() {
         flush();
         element_.keep(std::move(rows_));
@@ -33,15 +33,15 @@ class RowBuffer {
 
   private:
     void flush() {
-        // The first rows foretell the room for all, give or take some corners: growing would copy them.
+        // Estimate the total size from the first rows, with a margin, as growing would copy them.
         if (rows_.empty() && ended_ > 0)
-            reserve_huge(rows_, std::min(most_, used_ * element_.count / ended_ * 9 / 8));
+            reserve_huge(rows_, std::min(max_bytes_, used_ * element_.count / ended_ * 9 / 8));
         rows_.insert(rows_.end(), block_.begin(), block_.begin() + static_cast<std::ptrdiff_t>(used_));
         used_ = 0;
     }
 
     PlyElement& element_;
-    std::size_t most_;
+    std::size_t max_bytes_;
     std::vector<std::byte> rows_;
     std::array<std::byte, 1 << 16> block_;
     std::size_t used_ = 0, ended_ = 0;
@@ -55,11 +55,11 @@ class TextRows {
         const std::size_t width = element.properties.size();
         if (width == 0)
             return;
-        // A value takes a digit and a separator; behind the last one of the file that may be missing.
+        // A value takes a digit and a separator, which may be missing after the last value of the file.
         text_.at_end();
         if (element.count > (text_.bytes_left() + 1) / (2 * width))
             text_.fail(grouped(element.count) + " rows of element " + in_quotes(element.name) +
-                       " are announced but only " + grouped(text_.bytes_left()) +
+                       " are declared but only " + grouped(text_.bytes_left()) +
                        " bytes follow; copy or export the file again");
         RowBuffer rows(element, (text_.bytes_left() + 1) / 2 * sizeof(double));
         for (std::size_t row = 0; row < element.count; ++row) {
@@ -121,7 +121,7 @@ class TextRows {
         } else {
             const std::int64_t wide = text_.integer(name);
             if (wide < std::numeric_limits<T>::min() || wide > std::numeric_limits<T>::max())
-                text_.fail(std::to_string(wide) + " does not fit the type the header gives '" + name +
+                text_.fail(std::to_string(wide) + " does not fit the type that the header declares for '" + name +
                            "'; export the file again");
             value = static_cast<T>(wide);
         }
@@ -133,8 +133,7 @@ class TextRows {
 
 class BinaryRows {
   public:
-    BinaryRows(const FileBytes& file, const char* body, bool swapped)
-        : file_(file), at_(body), swapped_(swapped) {}
+    BinaryRows(const FileBytes& file, const char* body, bool swapped) : file_(file), at_(body), swapped_(swapped) {}
 
     void read(PlyElement& element) {
         if (element.properties.empty())
@@ -143,8 +142,7 @@ class BinaryRows {
         if (element.count > bytes_left() / smallest)
             file_.fail_at_byte(at_, grouped(element.count) + " rows of element " + in_quotes(element.name) +
                                         " take at least " + grouped(smallest) + " bytes each but only " +
-                                        grouped(bytes_left()) +
-                                        " bytes follow; copy or export the file again");
+                                        grouped(bytes_left()) + " bytes follow; copy or export the file again");
         const char* const end = element.has_lists() ? end_of_rows(element) : at_ + element.count * smallest;
         element.rows = std::as_bytes(std::span(at_, end));
         element.keeper = file_.keeper();
@@ -163,16 +161,15 @@ class BinaryRows {
             for (const PlyProperty& property : element.properties) {
                 const std::size_t head = size_of(property.count_type.value_or(property.type));
                 if (static_cast<std::size_t>(file_.end() - at) < head)
-                    file_.fail_at_byte(file_.end(), "the file ends early: row " + grouped(row) +
-                                                        " of element " + in_quotes(element.name) +
-                                                        " is cut; copy or export it again");
+                    file_.fail_at_byte(file_.end(), "the file ends early: row " + grouped(row) + " of element " +
+                                                        in_quotes(element.name) +
+                                                        " is cut off; copy or export it again");
                 if (property.count_type) {
                     const std::int64_t items = count_at(at, *property.count_type);
                     const std::size_t left = static_cast<std::size_t>(file_.end() - at) - head;
                     if (items < 0 || static_cast<std::size_t>(items) > left / size_of(property.type))
-                        file_.fail_at_byte(
-                            at, "a list " + in_quotes(property.name) + " of " + std::to_string(items) +
-                                    " items does not fit the rest of the file; copy or export it again");
+                        file_.fail_at_byte(at, "a list " + in_quotes(property.name) + " of " + std::to_string(items) +
+                                                   " items does not fit the rest of the file; copy or export it again");
                     at += static_cast<std::size_t>(items) * size_of(property.type);
                 }
                 at += head;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t chunk_size = std::size_t(1) << 22;
 
-/// A scalar property to be written: one value a row, `stride` bytes apart.
+/// A scalar property to write: one value per row, `stride` bytes apart.
 struct Column {
     std::string name;
     PlyType type;
@@ -30,36 +30,36 @@ std::string column_name(const Attribute& attribute, int component) {
                                      : fmt::format("{}_{}", stem, component);
 }
 
-std::vector<Column> added_columns(const Mesh& mesh, const WriteOptions& options) {
+std::vector<Column> added_columns(const Mesh& mesh) {
     std::vector<Column> columns;
     for (const Attribute& attribute : mesh.attributes)
         for (int c = 0; c < attribute.components; ++c)
             columns.push_back({column_name(attribute, c), PlyType::float32,
                                reinterpret_cast<const std::byte*>(attribute.values.data() + c),
                                sizeof(float) * static_cast<std::size_t>(attribute.components)});
-    if (!options.colors.empty()) {
-        const auto* bytes = reinterpret_cast<const std::byte*>(options.colors.data());
+    if (!mesh.added_colors.empty()) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(mesh.added_colors.data());
         for (const char* name : {"red", "green", "blue", "alpha"})
             columns.push_back({name, PlyType::uint8, bytes++, sizeof(Color)});
     }
     return columns;
 }
 
-/// One step of copying a row: `fixed` bytes as they are, or a list as it is, or a column in place of the old
-/// property, or (old == nullptr) behind the others.
+/// One step of copying a row: `fixed` bytes unchanged, a list unchanged, or a column, which replaces the property
+/// `old` or, if that is null, comes after the others.
 struct Step {
     std::size_t fixed = 0;
     const PlyProperty* old = nullptr;
     const Column* column = nullptr;
 };
 
-/// Writes an element with `columns` in it: over a property of the same name, else behind the last one.
+/// Writes an element with `columns`, which replace properties of the same name or come after the last one.
 class ElementWriter {
   public:
     ElementWriter(const PlyElement& element, const std::vector<Column>& columns) : element_(element) {
         for (const PlyProperty& property : element.properties) {
-            const auto column = std::find_if(columns.begin(), columns.end(),
-                                             [&](const Column& c) { return c.name == property.name; });
+            const auto column =
+                std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == property.name; });
             if (column != columns.end())
                 steps_.push_back({0, &property, &*column});
             else if (property.count_type)
@@ -68,8 +68,8 @@ class ElementWriter {
                 steps_.back().fixed += size_of(property.type);
             else
                 steps_.push_back({size_of(property.type), nullptr, nullptr});
-            properties_.push_back(
-                column == columns.end() ? property : PlyProperty{property.name, column->type, std::nullopt});
+            properties_.push_back(column == columns.end() ? property
+                                                          : PlyProperty{property.name, column->type, std::nullopt});
         }
         for (const Column& column : columns)
             if (element.find(column.name) == nullptr) {
@@ -128,14 +128,14 @@ class ElementWriter {
     std::vector<PlyProperty> properties_;
 };
 
-std::string header_comments(const PlyDocument& document, const WriteOptions& options) {
+std::string header_comments(const PlyDocument& document, const Mesh& mesh) {
     std::vector<std::string> lines = document.comments;
-    // What an earlier run said of values that this one replaces is no longer true.
-    for (const std::string& comment : options.comments)
+    // The comments of an earlier run on values that this one replaces are no longer true.
+    for (const std::string& comment : mesh.added_comments)
         std::erase_if(lines, [&](const std::string& line) {
             return line.starts_with("comment " + comment.substr(0, comment.find(' ') + 1));
         });
-    for (std::string comment : options.comments) {
+    for (std::string comment : mesh.added_comments) {
         std::replace_if(
             comment.begin(), comment.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
         std::string line = "comment " + comment;
@@ -157,14 +157,12 @@ bool belongs_to(const PlyDocument& document, const Mesh& mesh) {
 
 }
 
-std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file,
-                                   const WriteOptions& options) {
+std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file) {
     std::vector<std::string> lost;
     PlyDocument made;
     const auto* document = dynamic_cast<const PlyDocument*>(mesh.source.get());
     if (document != nullptr && !belongs_to(*document, mesh)) {
-        lost.push_back(
-            "the mesh no longer has the vertices and faces of its file: other properties are not stored");
+        lost.push_back("the mesh no longer has the vertices and faces of its file: other properties are not stored");
         document = nullptr;
     }
     if (document == nullptr) {
@@ -175,14 +173,13 @@ std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path
         for (const auto& [what, count] : text->other_lines)
             lost.push_back("not stored in PLY: " + grouped(count) + " " + what);
         if (text->weights > 0)
-            lost.push_back("not stored in PLY: the weights of " +
-                           counted(text->weights, "vertex", "vertices"));
+            lost.push_back("not stored in PLY: the weights of " + counted(text->weights, "vertex", "vertices"));
     }
 
-    const std::vector<Column> columns = added_columns(mesh, options);
+    const std::vector<Column> columns = added_columns(mesh);
     const std::vector<Column> no_columns;
     std::vector<ElementWriter> writers;
-    std::string header = "ply\nformat binary_little_endian 1.0\n" + header_comments(*document, options);
+    std::string header = "ply\nformat binary_little_endian 1.0\n" + header_comments(*document, mesh);
     for (const PlyElement& element : document->elements) {
         writers.emplace_back(element, element.name == "vertex" ? columns : no_columns);
         writers.back().write_header(header);

@@ -1,4 +1,4 @@
-// Format: 3D Systems, "StereoLithography Interface Specification" (1988): facets without shared vertices.
+// Format: 3D Systems (1988). Its facets share no vertices.
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/errors.h"
 #include "alcove/mesh/detail/weld.h"
@@ -16,7 +16,7 @@ constexpr std::size_t header_size = 80;
 constexpr std::size_t preamble_size = header_size + sizeof(std::uint32_t);
 constexpr std::size_t facet_size = 50;
 
-/// Joins the corners, one position each so far, that lie at the same place.
+/// Joins coincident corners; before, each corner has its own position.
 void join_corners(Mesh& mesh) {
     const std::vector<std::uint32_t> first = weld(mesh.positions);
     std::vector<std::uint32_t> number(mesh.positions.size());
@@ -32,7 +32,7 @@ void join_corners(Mesh& mesh) {
     mesh.positions.shrink_to_fit();
 }
 
-/// Ends a facet whose corners are the positions added since the last one.
+/// Ends the facet whose corners are the positions added since the last call.
 void close_facet(Mesh& mesh) {
     if (mesh.positions.size() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError("more than 2^32 facet corners; split the mesh");
@@ -40,22 +40,22 @@ void close_facet(Mesh& mesh) {
 }
 
 bool same_word(std::string_view a, std::string_view lower_case) {
-    return a.size() == lower_case.size() &&
-           std::equal(a.begin(), a.end(), lower_case.begin(),
-                      [](char x, char y) { return (x >= 'A' && x <= 'Z' ? x - 'A' + 'a' : x) == y; });
+    return a.size() == lower_case.size() && std::equal(a.begin(), a.end(), lower_case.begin(), [](char x, char y) {
+               return (x >= 'A' && x <= 'Z' ? x - 'A' + 'a' : x) == y;
+           });
 }
 
-/// Triangles the preamble of a binary file announces.
-std::size_t announced(const FileBytes& file) {
+/// The number of triangles that the preamble of a binary file declares.
+std::size_t declared_facets(const FileBytes& file) {
     ByteReader bytes(file, file.begin() + header_size, std::endian::little);
     return bytes.read<std::uint32_t>("the number of facets");
 }
 
 bool has_binary_size(const FileBytes& file) {
-    return file.size() >= preamble_size && file.size() == preamble_size + facet_size * announced(file);
+    return file.size() >= preamble_size && file.size() == preamble_size + facet_size * declared_facets(file);
 }
 
-/// Many binary files begin with the word of the text format, too; only they hold zero bytes.
+/// Many binary files begin with the keyword of the text format too, but only binary files contain zero bytes.
 bool is_text(const FileBytes& file) {
     TextScanner text(file, file.begin());
     return !has_binary_size(file) && !text.at_end() && same_word(text.peek(), "solid") &&
@@ -106,8 +106,7 @@ class TextReader {
 
     void expect(const char* word) {
         if (!next_is(word))
-            text_.fail(in_quotes(text_.peek()) + " stands where '" + word +
-                       "' is expected; export the file again");
+            text_.fail(in_quotes(text_.peek()) + " found where '" + word + "' is expected; export the file again");
         text_.word(word);
     }
 
@@ -119,12 +118,12 @@ Mesh read_binary(const FileBytes& file) {
     if (file.size() < preamble_size)
         file.fail_at_byte(file.end(),
                           "the file ends early: a binary STL has at least 84 bytes; copy or export it again");
-    const std::size_t facets = announced(file);
+    const std::size_t facets = declared_facets(file);
     ByteReader bytes(file, file.begin() + preamble_size, std::endian::little);
     if (facets > bytes.bytes_left() / facet_size)
-        file.fail_at_byte(file.begin() + header_size,
-                          grouped(facets) + " facets of 50 bytes are announced but only " +
-                              grouped(bytes.bytes_left()) + " bytes follow; copy or export the file again");
+        file.fail_at_byte(file.begin() + header_size, grouped(facets) + " facets of 50 bytes are declared but only " +
+                                                          grouped(bytes.bytes_left()) +
+                                                          " bytes follow; copy or export the file again");
     Mesh mesh;
     mesh.positions.reserve(3 * facets);
     mesh.corners.reserve(3 * facets);
@@ -147,7 +146,7 @@ Mesh read_binary(const FileBytes& file) {
         mesh.warnings.push_back(counted(attributed, "facet has", "facets have") +
                                 " attribute bytes (often a colour); left out");
     if (bytes.bytes_left() > 0)
-        mesh.warnings.push_back(grouped(bytes.bytes_left()) + " bytes behind the last facet were not read");
+        mesh.warnings.push_back(grouped(bytes.bytes_left()) + " bytes after the last facet were not read");
     return mesh;
 }
 

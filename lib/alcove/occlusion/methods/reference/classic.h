@@ -1,4 +1,4 @@
-/// Five probes along the normal, weighted.
+/// Weighted probes along the normal, five by default.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -6,38 +6,37 @@
 
 namespace alcove {
 
-/// Each probe tells how much nearer the surface is than it would be over a plane:
+/// Each probe measures how much nearer the surface is than it would be over a plane:
 ///
 ///     ao = clamp(1 − k Σ w_i (h_i − d(p + h_i n))),   k = 3, w_i = 0.95^i, h_i = 0.01 + 0.12 i/4, i = 0..4
 ///
-/// for a radius of 0.13. More or fewer samples spread over the same heights and weights, to the same sum of
-/// weights. The document stops once the sum passes 0.35; that is left out, for outside of solids it never passes
-/// 0.303. The same probes behind the surface, with |d|, give an
-/// occlusion c of the inside beside o = 1 − ao: convexity = ½ + ½ (c − o). Source: "SDF Ambient Occlusion —
-/// Detailed Reference" (2026), after A. Evans, "Fast approximations for global illumination on dynamic
-/// scenes" (2006). Exact on planes (ao 1, convexity ½) and convex shapes (ao 1). Thinner than two radii a solid is
-/// taken for more convex than it is, for its far side is near: a plate of 0.1, 0.5, 1 or 2 radii has a convexity of
-/// 0.58, 0.77, 0.76 or 0.5. Behind an open surface (Sign::sheet) the first voxel tells little. The bent normal is that
-/// of ring_bent_normal(), which no document has. Cost: `samples` map() calls a surfel, twice that with convexity,
-/// 4 more with the bent normal.
+/// for a reference radius of 0.13. Other sample counts cover the same range of heights and weights, with the same
+/// sum of weights. The reference formula stops once the sum exceeds 0.35; this is omitted, because outside solids
+/// the sum never exceeds 0.303. The same probes behind the surface, with |d|, give an occlusion c of the inside;
+/// with o = 1 − ao, convexity = ½ + ½ (c − o). The bent normal is that of ring_bent_normal(), not part of the
+/// reference.
+///
+/// Exact on planes (ao 1, convexity ½) and convex shapes (ao 1). A solid thinner than two radii appears too convex,
+/// because its far side is near: a plate of 0.1, 0.5, 1 or 2 radii has a convexity of 0.58, 0.77, 0.76 or 0.5.
+/// Behind an open surface (Sign::sheet) the first voxel carries little information. Source: sdfao2026, after Evans
+/// (2006). Cost: `samples` map() calls per surfel; twice that with convexity, 4 more with the bent normal.
 struct Classic {
-    float radius = 0.1f;   ///< furthest probe, > 0
+    float radius = 0.1f;   ///< maximum probe distance, > 0
     int samples = 5;       ///< >= 2
     float strength = 3.0f; ///< k, >= 0
-    float falloff = 0.95f; ///< of the weights, from each of five probes to the next, in (0, 1]
+    float falloff = 0.95f; ///< ratio of consecutive weights with five probes, in (0, 1]
 
     static constexpr std::string_view name = "classic";
     static constexpr std::string_view summary =
-        "probes along the normal: how much nearer the surface is than over a plane, weighted";
+        "weighted probes along the normal, each measuring how much nearer the surface is than over a plane";
     static constexpr std::string_view formula =
         "clamp(1 - k sum w_i (h_i - d(p + h_i n))), k = 3, w_i = 0.95^i, h_i = 0.01 + 0.12 i/4, i = 0..4";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost =
-        "samples (5); twice that with convexity; 4 more with bent_normal";
+    static constexpr std::string_view cost = "samples (5); twice that with convexity; 4 more with bent_normal";
     static constexpr std::string_view good =
-        "quick and smooth; 1 on planes and convex shapes; gives convexity and rough bent normals";
+        "fast and smooth; exact on planes and convex shapes; gives convexity and rough bent normals";
     static constexpr std::string_view bad =
-        "sees only what is above the point: too dark in wide corners, blind to what stands aside";
+        "sees only what is above the point: too dark in wide corners, blind to occluders at the side";
     static constexpr ChannelSet gives = Channel::ao | Channel::convexity | Channel::bent_normal;
     static constexpr float reference_radius = 0.13f;
 
@@ -45,7 +44,7 @@ struct Classic {
         return std::array{
             parameter<&Classic::samples>("samples", 2, 1 << 20, "probes", "along the normal"),
             parameter<&Classic::strength>("strength", 0, 100, "", "k of the formula"),
-            parameter<&Classic::falloff>("falloff", 0.01, 1, "", "of the weights, a fifth of the probes"),
+            parameter<&Classic::falloff>("falloff", 0.01, 1, "", "ratio of consecutive weights with five probes"),
         };
     }
 
@@ -65,7 +64,7 @@ struct Classic {
     }
 
   private:
-    /// The occlusion, in [0, 1], on the given side of the surface: 1 in front, −1 behind.
+    /// The occlusion in [0, 1] on one side of the surface: `side` is 1 in front, −1 behind.
     template <Field F>
     void probe(const F& field, const SurfelBatch& surfels, float side, float* occlusion) const {
         const float scale = radius / reference_radius;

@@ -1,4 +1,4 @@
-/// Probes along the normal whose weights halve from one to the next.
+/// Probes along the normal, each with half the weight of the one before.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -8,30 +8,29 @@ namespace alcove {
 
 ///     ao = factor · (1 − Σ 2^(−h·s) (h − d(p + h n))),   h = 1/s, 2/s, ... < 1,   s = 5
 ///
-/// for a radius of 1, clamped to [0, 1]. Source: G. Geer, "Normally Sampled Ambient Occlusion". The sum starts
-/// above the surface, for at height 0 it tells nothing, and needs a unit normal. On a plane ao = factor. Cost:
-/// s − 1 map() calls a surfel.
+/// for a reference radius of 1, clamped to [0, 1]. The sum starts above the surface, because a probe at height 0
+/// carries no information. Assumes a unit normal. On a plane ao = factor. Source: geer. Cost: s − 1 map() calls
+/// per surfel.
 struct Exponential {
-    float radius = 0.1f; ///< the first height that is not probed, > 0
+    float radius = 0.1f; ///< exclusive upper bound of the probe heights, > 0
     int samples = 5;     ///< s, >= 2
-    float factor = 1.0f; ///< of an open plane, in [0, 1]
+    float factor = 1.0f; ///< ao of an open plane, in [0, 1]
 
     static constexpr std::string_view name = "exponential";
-    static constexpr std::string_view summary =
-        "probes along the normal whose weights halve from one to the next";
+    static constexpr std::string_view summary = "probes along the normal, each with half the weight of the one before";
     static constexpr std::string_view formula =
         "factor (1 - sum 2^(-h s) (h - d(p + h n))), h = 1/s, 2/s, ... < 1, s = 5";
     static constexpr std::string_view source = "G. Geer, Normally Sampled Ambient Occlusion";
     static constexpr std::string_view cost = "samples (5) - 1";
-    static constexpr std::string_view good = "quick and smooth; 1 on planes and convex shapes";
-    static constexpr std::string_view bad = "pale: a closed crevice keeps two thirds of its light";
+    static constexpr std::string_view good = "fast and smooth; exact on planes and convex shapes";
+    static constexpr std::string_view bad = "too bright: a closed crevice keeps two thirds of its light";
     static constexpr float reference_radius = 1.0f;
 
     static constexpr auto parameters() {
         return std::array{
             parameter<&Exponential::samples>("samples", 2, 1 << 20, "steps",
-                                             "to the radius, the last of them not probed"),
-            parameter<&Exponential::factor>("factor", 0, 1, "", "of an open plane"),
+                                             "up to the radius, of which the last is not probed"),
+            parameter<&Exponential::factor>("factor", 0, 1, "", "ao of an open plane"),
         };
     }
 

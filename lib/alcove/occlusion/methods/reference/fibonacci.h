@@ -12,32 +12,30 @@ namespace alcove {
 
 ///     ao = clamp(6/n Σ clamp(3 d(p + 0.01 n + 0.1 hash(i) ω_i))),   i = 0..n − 1, n = 32
 ///
-/// for a radius of 0.11; ω_i = (cos φ sin θ, sin φ sin θ, z), φ = 2π fract(i/1.618…), z = cos θ = 1 − (2 i + 1)/n,
-/// flipped to the normal's side. Source: "SDF Ambient Occlusion — Detailed Reference" (2026). The directions are
-/// the same at every surfel, in world axes or around its normal; 0.62–0.73 on an open plane. Cost: `samples`
-/// map() calls a surfel.
+/// for a reference radius of 0.11; ω_i = (cos φ sin θ, sin φ sin θ, z), φ = 2π fract(i/1.618…), z = cos θ =
+/// 1 − (2 i + 1)/n, flipped to the normal's side. The directions are the same for every surfel, in world axes or
+/// around its normal. 0.62–0.73 on an open plane. Source: sdfao2026. Cost: `samples` map() calls per surfel.
 struct Fibonacci {
-    float radius = 0.1f;       ///< furthest probe there could be, > 0
+    float radius = 0.1f;       ///< upper bound of the probe distances, > 0
     int samples = 32;          ///< n, >= 1
-    bool surfel_frame = false; ///< directions turn with the normal
+    bool surfel_frame = false; ///< directions rotate with the normal
 
     static constexpr std::string_view name = "fibonacci";
-    static constexpr std::string_view summary =
-        "probes in the directions of a Fibonacci sphere, at hashed distances";
+    static constexpr std::string_view summary = "probes in the directions of a Fibonacci sphere, at hashed distances";
     static constexpr std::string_view formula = "clamp(6/n sum clamp(3 d(p + 0.01 n + 0.1 hash(i) w_i))), "
                                                 "w_i on a Fibonacci sphere, i = 0..n-1, n = 32";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
     static constexpr std::string_view cost = "samples (32)";
-    static constexpr std::string_view good = "sees what stands aside; even directions";
+    static constexpr std::string_view good = "sees occluders at the side; evenly spread directions";
     static constexpr std::string_view bad =
-        "0.62-0.73 on an open plane: dark all over; patterns turn with the world's axes";
+        "0.62-0.73 on an open plane: too dark everywhere; patterns depend on the orientation of the scene";
     static constexpr float reference_radius = 0.11f;
 
     static constexpr auto parameters() {
         return std::array{
             parameter<&Fibonacci::samples>("samples", 1, 1 << 20, "probes", "in the hemisphere"),
-            parameter<&Fibonacci::surfel_frame>(
-                "surfel_frame", 0, 1, "", "directions turn with the normal instead of staying in world axes"),
+            parameter<&Fibonacci::surfel_frame>("surfel_frame", 0, 1, "",
+                                                "directions rotate with the normal instead of following world axes"),
         };
     }
 

@@ -1,4 +1,4 @@
-/// Probes in random directions that lean toward the normal, against self-occlusion.
+/// Probes in random directions bent toward the normal, to reduce self-occlusion.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -12,35 +12,35 @@ namespace alcove {
 
 ///     ao = clamp(1 − 1/n Σ (l_i − max(d(p + l_i ω_i), 0)) · falloff),   l_i = hash(i),   i = 0..n − 1, n = 32
 ///
-/// for a radius of 1; ω_i = normalize(n + (1 − 1/n) v_i), v_i = (cos s, sin s, t)/√(1 + t²) flipped to the
-/// normal's side, s = 2π hash(l_i + 1), t = 2 hash(l_i + 2) − 1. Fewer samples lean more toward the normal.
-/// Source: "Hemispherical Signed Distance Field Ambient Occlusion" (after A. Evans 2006, I. Quilez 2008, J. Hart
-/// 1996). The directions are the same at every surfel, in world axes or around its normal; 0.90–0.95 on an
-/// open plane. Cost: `samples` map() calls a surfel.
+/// for a reference radius of 1; ω_i = normalize(n + (1 − 1/n) v_i), v_i = (cos s, sin s, t)/√(1 + t²) flipped to
+/// the normal's side, s = 2π hash(l_i + 1), t = 2 hash(l_i + 2) − 1. With fewer samples the directions bend more
+/// toward the normal. The directions are the same for every surfel, in world axes or around its normal. 0.90–0.95
+/// on an open plane. Source: hemisphericalao, after Evans (2006), Quilez (2008) and Hart (1996). Cost: `samples`
+/// map() calls per surfel.
 struct Hemisphere {
-    float radius = 0.1f;       ///< furthest probe there could be, > 0
+    float radius = 0.1f;       ///< upper bound of the probe distances, > 0
     int samples = 32;          ///< n, >= 1; 16 are usable
-    float falloff = 1.0f;      ///< >= 0
-    bool surfel_frame = false; ///< directions turn with the normal
+    float falloff = 1.0f;      ///< strength of the occlusion, >= 0
+    bool surfel_frame = false; ///< directions rotate with the normal
 
     static constexpr std::string_view name = "hemisphere";
-    static constexpr std::string_view summary = "probes in random directions mixed with the normal";
+    static constexpr std::string_view summary = "probes in random directions bent toward the normal";
     static constexpr std::string_view formula = "clamp(1 - 1/n sum (l_i - max(d(p + l_i w_i), 0)) falloff), "
                                                 "l_i = hash(i), w_i = normalize(n + (1 - 1/n) v_i), "
                                                 "v_i random, i = 0..n-1, n = 32";
     static constexpr std::string_view source = "Hemispherical Signed Distance Field Ambient Occlusion";
     static constexpr std::string_view cost = "samples (32)";
-    static constexpr std::string_view good = "sees what stands aside; little self-occlusion";
+    static constexpr std::string_view good = "sees occluders at the side; little self-occlusion";
     static constexpr std::string_view bad =
-        "0.90-0.95 on an open plane; pale; patterns turn with the world's axes";
+        "0.90-0.95 on an open plane; low contrast; patterns depend on the orientation of the scene";
     static constexpr float reference_radius = 1.0f;
 
     static constexpr auto parameters() {
         return std::array{
             parameter<&Hemisphere::samples>("samples", 1, 1 << 20, "probes", "in the hemisphere"),
             parameter<&Hemisphere::falloff>("falloff", 0, 100, "", "strength of the occlusion"),
-            parameter<&Hemisphere::surfel_frame>(
-                "surfel_frame", 0, 1, "", "directions turn with the normal instead of staying in world axes"),
+            parameter<&Hemisphere::surfel_frame>("surfel_frame", 0, 1, "",
+                                                 "directions rotate with the normal instead of following world axes"),
         };
     }
 

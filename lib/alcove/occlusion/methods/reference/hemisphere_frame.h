@@ -1,4 +1,4 @@
-/// Directions of the documents, the same for every surfel, brought to the side of its normal.
+/// Moves directions that are the same for every surfel into the hemisphere of its normal.
 #pragma once
 
 #include "alcove/occlusion/detail/directions.h"
@@ -6,12 +6,11 @@
 
 namespace alcove {
 
-/// In world axes, as the documents have it, a direction below the surface is reversed; around the normal it is
-/// mirrored into the upper half and turns with the surface.
+/// In world axes, as in the reference formulas, a direction below the surface is reversed. In the surfel's frame it
+/// is mirrored into the upper half and rotates with the surface.
 class HemisphereFrame {
   public:
-    HemisphereFrame(const SurfelBatch& surfels, bool surfel_frame)
-        : surfels_(surfels), surfel_frame_(surfel_frame) {}
+    HemisphereFrame(const SurfelBatch& surfels, bool surfel_frame) : surfels_(surfels), surfel_frame_(surfel_frame) {}
 
     Vec3 flipped(std::size_t surfel, const Vec3& direction) const {
         const Vec3 normal = surfels_.normal(surfel);

@@ -1,4 +1,4 @@
-/// Probes along the normal, each taking its share of the light that the ones before left.
+/// Probes along the normal, each removing a share of the remaining light.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -8,30 +8,28 @@ namespace alcove {
 
 ///     ao = Π (1 − max(0, (h_i − d(p + h_i n)) · 0.2/h_i)),   h_i = (i + 1) · radius/6,   i = 0..5
 ///
-/// Source: "SDF Ambient Occlusion — Detailed Reference" (2026), where the radius is 0.6. Exact on planes and
-/// convex shapes (1). Cost: `samples` map() calls a surfel.
+/// The reference radius is 0.6. Exact (1) on planes and convex shapes. Source: sdfao2026. Cost: `samples` map()
+/// calls per surfel.
 struct Multiplicative {
-    float radius = 0.1f;   ///< furthest probe, > 0
+    float radius = 0.1f;   ///< maximum probe distance, > 0
     int samples = 6;       ///< >= 1
-    float strength = 0.2f; ///< share of the light that a probe on the surface takes, in [0, 1]
+    float strength = 0.2f; ///< share of the light removed by a probe on the surface, in [0, 1]
 
     static constexpr std::string_view name = "multiplicative";
-    static constexpr std::string_view summary =
-        "probes along the normal, each taking its share of the light that is left";
+    static constexpr std::string_view summary = "probes along the normal, each removing a share of the remaining light";
     static constexpr std::string_view formula =
         "product of 1 - max(0, (h_i - d(p + h_i n)) 0.2/h_i), h_i = 0.1 (i + 1), i = 0..5";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
     static constexpr std::string_view cost = "samples (6)";
-    static constexpr std::string_view good =
-        "quick and smooth; never quite black; 1 on planes and convex shapes";
-    static constexpr std::string_view bad = "pale: a closed crevice keeps a quarter of its light";
+    static constexpr std::string_view good = "fast and smooth; never fully black; exact on planes and convex shapes";
+    static constexpr std::string_view bad = "too bright: a closed crevice keeps a quarter of its light";
     static constexpr float reference_radius = 0.6f;
 
     static constexpr auto parameters() {
         return std::array{
             parameter<&Multiplicative::samples>("samples", 1, 1 << 20, "probes", "along the normal"),
             parameter<&Multiplicative::strength>("strength", 0, 1, "",
-                                                 "share of the light that a probe on the surface takes"),
+                                                 "share of the light removed by a probe on the surface"),
         };
     }
 

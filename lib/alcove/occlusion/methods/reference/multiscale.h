@@ -1,4 +1,4 @@
-/// Probes along the normal at heights that double, short and long range apart.
+/// Probes along the normal at doubling heights, with separate short and long range.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -9,30 +9,30 @@ namespace alcove {
 ///     short = Π_{j ≤ 3} clamp(d(p + h_j n)/h_j),   long = short · Π_{j ≥ 4} clamp(d(p + h_j n)/h_j)
 ///     ao = max(floor, long^power),   h_j = radius · 2^(j − 6), j = 0..6,   floor = 0.035, power = 0.3
 ///
-/// Gives short and long as channels of their own. Source: "SDF Ambient Occlusion — Detailed Reference" (2026),
-/// where the radius is 6.4. Exact on planes and convex shapes (1). Cost: 7 map() calls a surfel.
+/// Gives short and long as separate channels. The reference radius is 6.4. Exact (1) on planes and convex shapes.
+/// Source: sdfao2026. Cost: 7 map() calls per surfel.
 struct Multiscale {
-    float radius = 0.1f;  ///< furthest probe, > 0
+    float radius = 0.1f;  ///< maximum probe distance, > 0
     float power = 0.3f;   ///< >= 0; below 1 brightens
-    float floor = 0.035f; ///< least ao, in [0, 1]
+    float floor = 0.035f; ///< lowest ao, in [0, 1]
 
     static constexpr std::string_view name = "multiscale";
     static constexpr std::string_view summary =
-        "probes along the normal at doubling heights; short and long range as channels of their own";
+        "probes along the normal at doubling heights; short and long range as separate channels";
     static constexpr std::string_view formula =
         "max(0.035, (prod clamp(d(p + h_j n)/h_j))^0.3), h_j = 0.1 2^j, j = 0..6; short: j <= 3";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
     static constexpr std::string_view cost = "7";
     static constexpr std::string_view good =
-        "detail and large forms in one pass; 1 on planes and convex shapes";
-    static constexpr std::string_view bad = "a look, not a measure: dark early, and its radius means little";
+        "fine detail and large shapes in one pass; exact on planes and convex shapes";
+    static constexpr std::string_view bad = "stylised rather than accurate: darkens early, and its radius means little";
     static constexpr ChannelSet gives = Channel::ao | Channel::ao_short | Channel::ao_long;
     static constexpr float reference_radius = 6.4f;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Multiscale::power>("power", 0, 10, "", "of the product; below 1 brightens"),
-            parameter<&Multiscale::floor>("floor", 0, 1, "", "least ao"),
+            parameter<&Multiscale::power>("power", 0, 10, "", "exponent of the product: below 1 brightens"),
+            parameter<&Multiscale::floor>("floor", 0, 1, "", "lowest ao"),
         };
     }
 

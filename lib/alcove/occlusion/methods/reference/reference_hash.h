@@ -1,4 +1,5 @@
-/// The pseudo-random numbers of the documents, in double precision: single precision differs between machines.
+/// The pseudo-random numbers of the reference formulas. In double precision, because single precision gives
+/// different numbers on different machines.
 #pragma once
 
 #include <array>
@@ -6,8 +7,7 @@
 
 namespace alcove {
 
-/// fract(sin(x) · scale): in [0, 1), the same at every surfel. "SDF Ambient Occlusion — Detailed Reference"
-/// (2026).
+/// fract(sin(x) · scale), in [0, 1). Source: sdfao2026.
 inline double reference_hash(double x, double scale = 43758.5453) {
     const double y = std::sin(x) * scale;
     return y - std::floor(y);

@@ -1,0 +1,183 @@
+#include "options.h"
+
+#include "ending.h"
+
+#include "alcove/base/detail/atomic_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+namespace alcove::cli {
+namespace {
+
+std::optional<Length> parse_voxel(const std::string& text) {
+    if (text == "auto")
+        return {};
+    const Length voxel(text);
+    if (voxel.unit == Length::Unit::voxels)
+        throw InputError("defines the unit vx: give it as 0.2 (scene units) or 0.5%");
+    if (std::isinf(voxel.value))
+        throw InputError("takes a finite length, not 'inf': write 0.2 (scene units) or 0.5%");
+    return voxel;
+}
+
+Vec3d parse_triple(const std::string& text, Triple kind) {
+    Vec3d v;
+    const char* at = text.c_str();
+    for (int axis = 0; axis < 3; ++axis) {
+        char* end = nullptr;
+        v[axis] = std::strtod(at, &end);
+        if (end == at || !std::isfinite(v[axis]) || *end != (axis == 2 ? '\0' : ','))
+            throw InputError(fmt::format("takes three numbers, not '{}': write 1,2.5,-3", text));
+        at = end + 1;
+    }
+    if (kind == Triple::direction && v == Vec3d(0.0))
+        throw InputError("takes a direction, not 0,0,0: write 0,1,0 or 0,0,1");
+    return v;
+}
+
+std::pair<std::string, double> parse_setting(const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos)
+        throw InputError(fmt::format("takes name=value, not '{}'", setting));
+    const std::string text = setting.substr(equals + 1);
+    double value = text == "true" ? 1.0 : 0.0;
+    if (text != "true" && text != "false") {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size())
+            throw InputError(fmt::format("takes name=value with a number, true or false, not '{}'", setting));
+    }
+    return {setting.substr(0, equals), value};
+}
+
+}
+
+void add_run_options(CLI::App& verb, CommonOptions& options) {
+    verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
+    add_choice<ProgressMode>(verb, "--progress", options.progress,
+                             {{"auto", ProgressMode::automatic},
+                              {"bar", ProgressMode::bar},
+                              {"plain", ProgressMode::plain},
+                              {"none", ProgressMode::none}},
+                             "Progress on stderr: auto (a bar on a terminal), bar, plain, none")
+        ->option_text("MODE");
+    verb.add_option_function<double>(
+            "--time-limit", [](const double& seconds) { limit_time(seconds); },
+            "Stop after this many seconds with exit code 1 and leave files unchanged; a bake or image that would "
+            "clearly take longer is refused, with settings that would fit")
+        ->check(parsable([](const std::string& text) {
+            char* end = nullptr;
+            const double seconds = std::strtod(text.c_str(), &end);
+            if (!(seconds > 0.0 && seconds <= 1e9) || *end != '\0')
+                throw InputError(fmt::format("takes seconds, above 0 and up to 1e9, not '{}'", text));
+        }))
+        ->option_text("SECONDS");
+    verb.add_flag("--quiet", options.quiet, "No progress, no warnings");
+    verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
+}
+
+void add_common_options(CLI::App& verb, CommonOptions& options) {
+    verb.add_flag("--json", options.json, "Print the result as one JSON object on stdout");
+    add_run_options(verb, options);
+}
+
+void add_radius_option(CLI::App& verb, Length& radius, const std::string& description) {
+    verb.add_option_function<std::string>(
+            "--radius", [&radius](const std::string& text) { radius = Length(text); }, description)
+        ->check(parsable([](const std::string& text) { return Length(text); }))
+        ->type_name("LEN")
+        ->default_str("10%");
+}
+
+void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign) {
+    verb.add_option_function<std::string>(
+            "--voxel", [&voxel](const std::string& text) { voxel = parse_voxel(text); },
+            "Edge of the finest voxel: 0.2, 0.5%, or auto (1/256 of the diagonal, finer for small radii)")
+        ->check(parsable(parse_voxel))
+        ->type_name("LEN")
+        ->default_str("auto");
+    add_choice<SignChoice>(
+        verb, "--sign", sign,
+        {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}},
+        "solid: closed, with an inside; sheet: faces occlude from both sides; auto: depends on the mesh")
+        ->type_name("SIGN")
+        ->default_str("auto");
+}
+
+CLI::Option* add_triple(CLI::App& verb, const std::string& name, std::optional<Vec3d>& value, Triple kind,
+                        const std::string& description) {
+    return verb
+        .add_option_function<std::string>(
+            name, [&value, kind](const std::string& text) { value = parse_triple(text, kind); }, description)
+        ->check(parsable([kind](const std::string& text) { return parse_triple(text, kind); }))
+        ->type_name("X,Y,Z");
+}
+
+void add_method_options(CLI::App& verb, MethodRequest& request, const std::string& description) {
+    CLI::Option* method = verb.add_option("--method", request.method, description + method_names())->type_name("NAME");
+    const auto set = [&request](const char* name) {
+        return [&request, name](const int& value) { request.parameters.emplace_back(name, value); };
+    };
+    verb.add_option_function<int>("--samples", set("samples"), "Probes per point, for methods that use probes")
+        ->needs(method)
+        ->type_name("N");
+    verb.add_option_function<int>("--rays", set("rays"), "Rays per point, for methods that trace rays")
+        ->needs(method)
+        ->type_name("N");
+    verb.add_option("--seed", request.seed, "Seed of the ray directions")->type_name("N");
+    verb.add_option_function<std::vector<std::string>>(
+            "--set",
+            [&request](const std::vector<std::string>& settings) {
+                for (const std::string& setting : settings)
+                    request.parameters.push_back(parse_setting(setting));
+            },
+            "A parameter of the method; `alcove methods` lists them")
+        ->check(parsable(parse_setting))
+        ->needs(method)
+        ->type_name("NAME=VALUE");
+}
+
+std::string method_names() {
+    std::string names;
+    for (const Method& method : catalog())
+        if (method.gives.has(Channel::ao))
+            names += (names.empty() ? "" : ", ") + std::string(method.name);
+    return names;
+}
+
+std::string extension(const std::string& file) {
+    std::string text = std::filesystem::path(file).extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+void check_grid_output(const std::string& file) {
+    if (extension(file) != ".vdb")
+        throw UsageError(file + ": grids are written as .vdb: use this extension");
+    const AtomicFile probe(file);
+}
+
+void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options) {
+    if (options.quiet)
+        return;
+    for (const std::string& warning : warnings)
+        std::fputs(fmt::format("alcove: warning: {}\n", warning).c_str(), stderr);
+}
+
+void print_json(const nlohmann::ordered_json& object, bool in_one_line) {
+    constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    fmt::print("{}\n", object.dump(in_one_line ? -1 : 2, ' ', false, replace));
+}
+
+std::string_view name_of(Sign sign) {
+    return sign == Sign::solid ? "solid" : "sheet";
+}
+
+}

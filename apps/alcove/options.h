@@ -1,0 +1,131 @@
+/// Options that several verbs share, and the parsing of their values.
+#pragma once
+
+#include "progress.h"
+
+#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/occlusion/catalog.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace alcove::cli {
+
+/// The command line is invalid: exit code 2.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Returns the result of `work`. Rethrows its InputError as UsageError: the command line is at fault, not a file.
+template <class Work>
+decltype(auto) as_usage(const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+/// A validator that accepts the values for which `parse` does not throw an InputError.
+template <class Parse>
+CLI::Validator parsable(const Parse& parse) {
+    return CLI::Validator(
+        [parse](const std::string& text) {
+            try {
+                parse(text);
+                return std::string();
+            } catch (const InputError& error) {
+                return std::string(error.what());
+            }
+        },
+        "");
+}
+
+/// Adds an option that takes one of the given words.
+template <class T>
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, T& value,
+                        const std::vector<std::pair<std::string, T>>& choices, const std::string& description) {
+    std::map<std::string, T> known(choices.begin(), choices.end());
+    std::string words;
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        words += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i].first;
+    return verb
+        .add_option_function<std::string>(
+            name, [&value, known](const std::string& word) { value = known.at(word); }, description)
+        ->check(CLI::Validator(
+            [known, words](const std::string& word) {
+                return known.contains(word) ? "" : "takes " + words + ", not '" + word + "'";
+            },
+            ""));
+}
+
+struct CommonOptions {
+    unsigned threads = 0;
+    bool json = false;
+    bool quiet = false;
+    ProgressMode progress = ProgressMode::automatic;
+
+    ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
+};
+
+/// Adds --threads, --progress, --time-limit, --quiet and --version.
+void add_run_options(CLI::App& verb, CommonOptions& options);
+
+/// Adds the run options and --json.
+void add_common_options(CLI::App& verb, CommonOptions& options);
+
+/// Adds --radius.
+void add_radius_option(CLI::App& verb, Length& radius, const std::string& description);
+
+/// Adds --voxel (empty: auto) and --sign.
+void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign);
+
+/// Adds an option for three numbers, such as `1,2.5,-3`. A direction must not be 0,0,0.
+enum class Triple { point, direction };
+CLI::Option* add_triple(CLI::App& verb, const std::string& name, std::optional<Vec3d>& value, Triple kind,
+                        const std::string& description);
+
+/// A method and its parameters from --method, --samples, --rays, --seed and --set.
+struct MethodRequest {
+    std::string method; ///< empty: not given
+    std::vector<std::pair<std::string, double>> parameters{};
+    std::optional<std::uint32_t> seed{};
+};
+
+void add_method_options(CLI::App& verb, MethodRequest& request, const std::string& description);
+
+/// The names of the estimators, separated by commas.
+std::string method_names();
+
+/// The extension of a file name in lower case, with the dot.
+std::string extension(const std::string& file);
+
+/// \throw UsageError unless the name ends in .vdb, IoError if the file cannot be written.
+void check_grid_output(const std::string& file);
+
+/// Prints one line per warning to stderr, unless quiet.
+void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
+
+/// Prints the object to stdout, indented or in one line.
+void print_json(const nlohmann::ordered_json& object, bool in_one_line = false);
+
+/// "solid" or "sheet".
+std::string_view name_of(Sign sign);
+
+// Each adds a verb to the program; its callback runs the verb.
+void add_bake(CLI::App& program);
+void add_render(CLI::App& program);
+void add_voxelize(CLI::App& program);
+void add_info(CLI::App& program);
+void add_measure(CLI::App& program);
+void add_methods(CLI::App& program);
+
+}

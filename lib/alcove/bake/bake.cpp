@@ -1,0 +1,220 @@
+#include "alcove/bake/bake.h"
+#include "alcove/base/detail/stopwatch.h"
+
+#include "alcove/bake/detail/options.h"
+#include "alcove/bake/detail/parts.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/detail/source.h"
+#include "alcove/mesh/triangulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+constexpr const char* provenance = "alcove ";
+
+/// A mesh and the data that all its targets share.
+struct PreparedMesh {
+    const Mesh& mesh;
+    std::vector<Triangle> triangles;
+    Frame frame;
+    VoxelizeOptions voxelizing;
+    float radius;
+    std::optional<GridStack> grid{}; ///< the given one, reframed to the mesh and extended to the radius
+};
+
+std::string named(const Mesh& mesh, const std::string& message) {
+    return mesh.name.empty() || message.starts_with(mesh.name) ? message : mesh.name + ": " + message;
+}
+
+/// Newell's method (Tampieri 1992), which also works for non-planar polygons.
+Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
+    const std::span<const std::uint32_t> corners = mesh.face(face);
+    Vec3d sum(0.0);
+    for (std::size_t c = 0; c < corners.size(); ++c)
+        sum += glm::cross(mesh.positions[corners[c]] - mesh.positions[corners[0]],
+                          mesh.positions[corners[(c + 1) % corners.size()]] - mesh.positions[corners[0]]);
+    return unit_or_zero(sum);
+}
+
+/// Detects a grid of another mesh, or of the same mesh at another position.
+void warn_of_distance(const PreparedMesh& prepared, std::vector<std::string>& warnings) {
+    GridStack finest = *prepared.grid;
+    finest.levels.resize(1);
+    const LevelStack field(finest);
+    const Mesh& mesh = prepared.mesh;
+    const auto off =
+        static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3d& p) {
+            return is_finite(p) && std::fabs(field.map(prepared.frame.to_unit(p))) > 2.0f * field.resolution();
+        }));
+    if (off > mesh.vertex_count() / 100)
+        warnings.push_back(fmt::format("{} of {} vertices are more than two voxels off the surface of the grid: is it "
+                                       "the grid of this mesh?",
+                                       grouped(off), grouped(mesh.vertex_count())));
+}
+
+void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<std::string>& warnings) {
+    GridStack stack = reframed(*options.grid, prepared.frame);
+    const bool inside = prepared.voxelizing.grid.inner_band == prepared.voxelizing.grid.outer_band;
+    const float reach = stack.reach();
+    if (inside && !stack.knows_inside())
+        warnings.emplace_back(
+            "the grid does not reach far enough inside for these attributes, so it is voxelized "
+            "again from its own surface; to avoid this, save the grid of a bake with these attributes");
+    else if (reach < std::min(prepared.radius, 1.0f))
+        warnings.push_back(
+            fmt::format("the grid stores distances only up to {:.4g}, less than the radius: coarser levels are "
+                        "computed from its surface; a band as wide as the radius avoids this",
+                        reach * prepared.frame.diagonal));
+    prepared.grid = extend_levels(std::move(stack), prepared.radius, inside);
+    warn_of_distance(prepared, warnings);
+}
+
+PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<std::string>& warnings) {
+    PreparedMesh prepared{mesh, triangulate(mesh).triangles, frame_of(mesh.box()), {}, 0.0f};
+    prepared.voxelizing = voxelizing_of(options, prepared.frame);
+    prepared.radius = radius_of(options, prepared.frame, prepared.voxelizing);
+    if (options.grid)
+        take_grid(prepared, options, warnings);
+    return prepared;
+}
+
+std::vector<Surfel> surfels_of_vertices(const PreparedMesh& prepared, NormalSource normals) {
+    return make_surfels(prepared.mesh, prepared.triangles, prepared.frame, normals);
+}
+
+std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, std::span<const SurfacePoint> points) {
+    const Mesh& mesh = prepared.mesh;
+    std::vector<Surfel> surfels;
+    surfels.reserve(points.size());
+    for (const SurfacePoint& point : points) {
+        if (point.face != no_face && point.face >= mesh.face_count())
+            throw InputError(
+                fmt::format("a point refers to face {}, but the mesh has {} faces", point.face, mesh.face_count()));
+        Vec3 normal = unit_or_zero(Vec3d(point.normal));
+        if (normal == Vec3(0.0f) && point.face != no_face)
+            normal = face_normal(mesh, point.face);
+        if (!is_finite(point.position))
+            surfels.push_back({Vec3(0.0f), Vec3(0.0f)});
+        else
+            surfels.push_back({prepared.frame.to_unit(point.position), normal});
+    }
+    return surfels;
+}
+
+void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,
+                             std::vector<std::string>& warnings) {
+    const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
+    if (missing > 0)
+        warnings.push_back(fmt::format("{} of {} {} have no normal (no face uses them, or their faces cancel) and got "
+                                       "ao = 1",
+                                       grouped(static_cast<std::size_t>(missing)), grouped(surfels.size()), what));
+}
+
+Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& prepared) {
+    Baked baked;
+    baked.values = std::move(result.values);
+    for (float& thickness : baked.values[Channel::thickness])
+        thickness = static_cast<float>(thickness * prepared.frame.diagonal);
+    baked.attributes = task.attributes;
+    baked.method = result.choice.label();
+    if (result.choice.samples > 0)
+        baked.samples = result.choice.samples;
+    baked.reason = std::move(result.reason);
+    baked.rmse = result.rmse;
+    baked.target = task.error;
+    baked.radius = double(prepared.radius) * prepared.frame.diagonal;
+    baked.grid_summary = result.grid;
+    baked.grid = std::move(result.stack);
+    baked.seconds = result.seconds;
+    baked.warnings = std::move(result.warnings);
+    return baked;
+}
+
+/// `surfels_of` returns the surfels to bake for a prepared mesh; `what` names them in warnings.
+template <class SurfelsOf>
+Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, std::string_view what, bool by_parts,
+                   const SurfelsOf& surfels_of) {
+    const ThreadLimit limit(options.threads);
+    check(options);
+    BakeTask task = task_of(options);
+    Stopwatch watch;
+    std::vector<std::string> warnings;
+    try {
+        const PreparedMesh prepared = prepare(mesh, options, warnings);
+        Surroundings surroundings(options, mesh, prepared.frame, prepared.radius, warnings);
+        task.from_file_normals = !mesh.normals.empty() && options.normals != NormalSource::area;
+        BakeTarget whole{mesh,
+                         prepared.triangles,
+                         prepared.frame,
+                         surfels_of(prepared),
+                         prepared.radius,
+                         prepared.voxelizing,
+                         prepared.grid ? &*prepared.grid : nullptr};
+        warn_of_missing_normals(whole.surfels, what, warnings);
+        const double preparing = watch.lap();
+        TargetResult result = by_parts ? bake_parts(whole, task, options.normals, surroundings, options.progress)
+                                       : bake_target(whole, task, surroundings, options.progress);
+        result.seconds.grid += preparing;
+        Baked baked = to_baked(std::move(result), task, prepared);
+        baked.warnings.insert(baked.warnings.begin(), warnings.begin(), warnings.end());
+        return baked;
+    } catch (const InputError& error) {
+        throw InputError(named(mesh, error.what()));
+    } catch (const LimitError& error) {
+        throw LimitError(named(mesh, error.what()));
+    } catch (const TimeLimitError& error) {
+        throw TimeLimitError(named(mesh, error.what()));
+    }
+}
+
+/// Whether to add ao as colours and `quality`: not if the mesh already has either, unless an earlier bake added them.
+bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
+    if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
+        return baked.attributes.has(Channel::ao) && use == ColorUse::ao;
+    if (mesh.source && mesh.source->has_comment(provenance))
+        return true;
+    return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
+}
+
+}
+
+Baked bake(const Mesh& mesh, const BakeOptions& options) {
+    return bake_surfels(mesh, options, "vertices", options.self,
+                        [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); });
+}
+
+Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
+    return bake_surfels(mesh, options, "points", false,
+                        [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); });
+}
+
+bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
+    for (const ChannelInfo& channel : channels)
+        if (const auto& values = baked[channel.channel];
+            !values.empty() && values.size() != mesh.vertex_count() * channel.components)
+            throw InputError(fmt::format("{} values of {} were baked, but the mesh has {} vertices",
+                                         values.size() / channel.components, channel.name, mesh.vertex_count()));
+    const bool colored = wants_colors(options.color, baked, mesh);
+    if (colored) {
+        mesh.added_colors = grey_colors(baked.ao(), options.encoding);
+        mesh.set_attribute({"quality", 1, baked.ao()});
+    }
+    for (const ChannelInfo& channel : channels)
+        if (const auto& values = baked[channel.channel]; !values.empty())
+            mesh.set_attribute({std::string(channel.name), static_cast<int>(channel.components), values});
+    const GridSummary& grid = baked.grid_summary;
+    mesh.added_comments.push_back(fmt::format("{}{}: {} by {}, radius {:.6g}, {}", provenance, ALCOVE_VERSION,
+                                              names_of(baked.attributes), baked.method, baked.radius,
+                                              grid.levels > 0 ? fmt::format("voxel {:.6g}", grid.voxel) : grid.text()));
+    return colored;
+}
+
+}

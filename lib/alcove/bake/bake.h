@@ -1,0 +1,179 @@
+/// Bakes the ambient occlusion of a mesh in one call.
+///
+///     auto mesh = alcove::read_mesh("dragon.ply");
+///     const auto baked = alcove::bake(mesh, {.radius = "10%", .quality = alcove::Quality::good});
+///     alcove::add(mesh, baked);
+///     alcove::write_mesh(mesh, "dragon_ao.ply");
+#pragma once
+
+#include "alcove/base/types.h"
+#include "alcove/grid/grid_stack.h"
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/mesh.h"
+#include "alcove/mesh/normals.h"
+#include "alcove/mesh/write.h"
+#include "alcove/occlusion/channels.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace alcove {
+
+/// The largest RMSE of the baked ao against the reference, exact rays: 0.05, 0.02 or 0.005.
+enum class Quality { draft, good, fine };
+double rmse_of(Quality quality);
+
+/// The methods that the planner may choose.
+enum class Via {
+    grid, ///< calibrated and guided, which use the field; exact if they cost far more, do not fit or miss the error
+    automatic, ///< calibrated, guided and exact: the cheapest
+    mesh,      ///< exact rays on the triangles
+};
+
+/// Receives the current work ("voxelizing", "baking") and the share of it that is done, in [0, 1]. The share restarts
+/// if the planner bakes again. Never called from two threads at once. An exception that it throws ends the bake.
+using BakeProgress = std::function<void(std::string_view work, double done)>;
+
+struct BakeOptions {
+    /// Maximum distance of occluders, > 0; may be infinite. A length in voxels needs `voxel` or `grid`.
+    Length radius = "10%";
+    /// The RMSE to meet. The planner chooses the method, rays, voxel and probes. No effect if `method` is named.
+    Quality quality = Quality::good;
+    Via via = Via::grid; ///< no effect if `method` is named
+    /// Any other RMSE to meet, in [0.001, 1), instead of `quality`.
+    std::optional<double> error{};
+    /// A method of the catalog; empty: chosen. Without `error` it runs with its defaults and `parameters`; with
+    /// `error`, its rays or samples are chosen.
+    std::string method{};
+    /// Parameters of `method` by their names in the catalog.
+    std::vector<std::pair<std::string, double>> parameters{};
+    std::uint32_t seed = 0; ///< of the ray directions
+
+    std::vector<Mesh> occluders{}; ///< meshes that also occlude, in the same coordinates
+    bool ground = false;           ///< the plane through the lowest vertex also occludes
+    Vec3d up{0.0, 1.0, 0.0};       ///< normal of the ground; any length except 0
+    bool self = false;             ///< each connected part is occluded only by itself, `occluders` and `ground`
+
+    ChannelSet attributes = Channel::ao;
+    NormalSource normals = NormalSource::automatic;
+    SignChoice sign = SignChoice::automatic;
+    std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: chosen
+    const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
+    /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.
+    bool keep_grid = false;
+
+    bool pilot = true; ///< measure the error of the bake with reference rays; a planned bake needs this
+    /// Wall-clock seconds from the call, > 0. A bake whose estimate clearly exceeds this is refused; a running one is
+    /// not stopped.
+    std::optional<double> time_limit{};
+    BakeProgress progress{};
+    unsigned threads = 0; ///< 0: one per core
+};
+
+/// Wall-clock seconds of the stages of a bake.
+struct BakeSeconds {
+    double grid = 0.0;      ///< triangulation, level sets, their field and the BVH for rays
+    double pilot = 0.0;     ///< reference rays of the pilot
+    double occlusion = 0.0; ///< the method itself, in all attempts of the planner
+};
+
+/// The level sets that a bake used; without levels if it used none. For several parts: the largest voxel and the
+/// largest numbers of levels and bytes.
+struct GridSummary {
+    double voxel = 0.0; ///< finest, scene units
+    std::size_t levels = 0;
+    std::size_t bytes = 0; ///< with the grids of occluders
+    Sign sign = Sign::solid;
+    bool clustered = false; ///< built from clustered vertices, see GridOptions::cluster
+
+    std::string text() const; ///< such as "as a solid of 3 levels from voxel 0.01"
+};
+
+struct Baked {
+    /// One entry per vertex or point, in input order; lengths in scene units. Empty for attributes that were not
+    /// requested. ChannelInfo::missing where there is no normal.
+    ChannelValues values;
+    ChannelSet attributes;
+
+    std::string method;           ///< with its rays or samples: "guided:3"
+    std::optional<int> samples;   ///< rays or samples per vertex or point; empty if the method has neither
+    std::string reason;           ///< why exact was planned despite Via::grid; empty otherwise
+    std::optional<double> rmse;   ///< of ao, estimated by the pilot; empty without a pilot
+    std::optional<double> target; ///< the RMSE to meet; empty for a method with its defaults
+    double radius = 0.0;          ///< scene units; may be infinite
+    GridSummary grid_summary;
+    GridStack grid; ///< see BakeOptions::keep_grid
+    BakeSeconds seconds;
+    std::vector<std::string> warnings; ///< one line each: a defect of the result and its fix
+
+    const std::vector<float>& ao() const& { return values[Channel::ao]; }
+    std::vector<float> ao() && { return std::move(values[Channel::ao]); }
+    const std::vector<float>& operator[](Channel channel) const { return values[channel]; }
+    /// Whether the estimated RMSE exceeds the target.
+    bool missed() const { return rmse && target && *rmse > *target; }
+};
+
+/// Checks options without a mesh. \throw InputError if options contradict each other or are out of range; the message
+/// is one line that names them.
+void check(const BakeOptions& options);
+
+/// Bakes the vertices of a mesh. The values do not depend on the number of threads. Warnings and messages use the
+/// option names of the command line: --radius is BakeOptions::radius.
+///
+/// Thread-safety: concurrent calls must have the same `threads`, since that limit applies to the whole process, and
+/// should not have a `time_limit`, since it is checked with the CPU time of the whole process.
+/// Cost: at quality good, from 1 µs per vertex on dense scans to about 5 µs on small meshes, plus 50 to 100 ms for the
+/// pilot.
+/// \throw InputError as check(), or if the mesh cannot be baked: no face has an area, or NormalSource::file without
+/// normals. LimitError if the grids do not fit in memory. TimeLimitError, see BakeOptions::time_limit. Any exception of
+/// BakeOptions::progress.
+Baked bake(const Mesh& mesh, const BakeOptions& options = {});
+
+inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
+
+/// A point to bake other than a vertex: a texel, a corner, a sample.
+struct SurfacePoint {
+    Vec3d position{0.0};          ///< scene units
+    Vec3 normal{0.0f};            ///< any length; zero: the normal of the face
+    std::uint32_t face = no_face; ///< index of the face that it lies on; used only if `normal` is zero
+};
+
+/// Bakes points on or near a mesh, as above. `normals` and `self` have no effect. A point without a normal or with a
+/// non-finite position gets ChannelInfo::missing (ao = 1). \throw as above, and InputError for a face index that is out
+/// of range.
+Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
+
+/// Splits faces where ao between the vertices differs from its interpolation by more than `error` (or the RMSE of
+/// `quality`), so that vertex values can represent it: a floor of one quad under a box gets the shadow of the box.
+/// Edges up to 1/16 of the radius, or of a quarter of the diagonal if that is less, are not split. The result has at
+/// most a million faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in
+/// tessellate(). `method`, `via`, `self`, `progress` and `time_limit` have no effect.
+///
+/// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
+/// as bake() and tessellate().
+Mesh tessellate_for_ao(const Mesh& mesh, const BakeOptions& options = {});
+
+/// What add() does with ao in addition to the attribute `ao`.
+enum class ColorUse {
+    automatic, ///< adds vertex colours and `quality`, unless the mesh already has either of its own
+    ao,        ///< adds both, and replaces those of the mesh
+    none,      ///< adds neither
+};
+struct AddOptions {
+    ColorUse color = ColorUse::automatic;
+    ColorEncoding encoding = ColorEncoding::srgb;
+};
+
+/// Adds the values that were baked at the vertices of `mesh` as attributes named like the channels, ao also as colours
+/// and `quality` (see ColorUse), and a comment with the method and its settings. \return whether colours were added.
+/// \throw InputError if the numbers of values and vertices do not match. Cost: linear.
+bool add(Mesh& mesh, const Baked& baked, const AddOptions& options = {});
+
+}

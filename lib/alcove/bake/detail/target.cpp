@@ -1,0 +1,283 @@
+#include "alcove/bake/detail/target.h"
+#include "alcove/base/detail/stopwatch.h"
+
+#include "alcove/bake/detail/causes.h"
+#include "alcove/bake/detail/planner.h"
+#include "alcove/bake/detail/target_occluders.h"
+#include "alcove/base/errors.h"
+#include "alcove/base/parallel.h"
+#include "alcove/grid/detail/plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace alcove {
+namespace {
+
+OccluderNeeds needs_of(const Method& method, ChannelSet wanted) {
+    OccluderNeeds needs;
+    for (const Method* needed : methods_for(method, wanted))
+        needs = {needs.field || needed->needs_grid, needs.rays || needed->needs_mesh};
+    return needs;
+}
+
+/// Refuses a bake that would clearly miss the deadline. Estimates its time from a trial of 128 surfels spread over the
+/// mesh and doubles their number while the outcome is uncertain. All trials together bake at most a quarter of the
+/// surfels; fewer than about a thousand surfels are not checked.
+void check_time(const Deadline& deadline, std::span<const Surfel> surfels, const Occluders& occluders,
+                const MethodChoice& choice, Settings settings, ChannelSet wanted) {
+    constexpr std::size_t max_batches = 64, min_stride = 8;
+    constexpr int max_samples = 4096; // of the trial; the time is proportional to them
+    constexpr double certain = 2.0;   // ratio to the limit, in either direction
+    if (!deadline.is_set())
+        return;
+    double samples_left_out = 1.0;
+    if (choice.samples > max_samples) {
+        settings.parameters.emplace_back(parameter_of(choice.method->samples_are), max_samples);
+        samples_left_out = static_cast<double>(choice.samples) / max_samples;
+    }
+    const std::vector<std::uint32_t> order = spatial_order(surfels);
+    const std::size_t batches = order.size() / SurfelBatch::capacity;
+    double seconds = 0.0; // of all surfels
+    for (std::size_t count = 2; count <= max_batches && count * min_stride <= batches; count *= 2) {
+        std::vector<Surfel> some;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t batch = (2 * k + 1) * batches / (2 * count);
+            for (std::size_t i = 0; i < SurfelBatch::capacity; ++i)
+                some.push_back(surfels[order[batch * SurfelBatch::capacity + i]]);
+        }
+        const double part = shared_seconds_of([&] { evaluate(some, occluders, *choice.method, settings, wanted); });
+        seconds = part * samples_left_out * static_cast<double>(order.size()) / static_cast<double>(some.size());
+        if (certain * seconds < deadline.left() || seconds > certain * clearly_late * deadline.left())
+            break;
+    }
+    deadline.check(seconds, [&](double share) -> std::string {
+        const int fewer = static_cast<int>(share * choice.samples);
+        if (fewer >= 1)
+            return fmt::format("--{} {}", parameter_of(choice.method->samples_are), fewer);
+        return choice.method->name == "calibrated" ? "" : "--method calibrated";
+    });
+}
+
+/// The same for a plan. Uses the planner's cost table, so it assumes a machine as fast as the one that measured it.
+void check_time(const Deadline& deadline, const Plan& plan, const PlanRequest& request, const Pilot& pilot) {
+    deadline.check(plan.seconds / static_cast<double>(thread_count()), [&](double share) -> std::string {
+        for (PlanRequest other = request; const double error : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1}) {
+            other.error = error;
+            if (error > request.error && Planner(other, pilot).expected().seconds < share * plan.seconds)
+                return fmt::format("--error {}", error);
+        }
+        return "";
+    });
+}
+
+class TargetBake {
+  public:
+    TargetBake(const BakeTarget& target, const BakeTask& task, Surroundings& surroundings, const BakeProgress& progress)
+        : target_(target), task_(task), surroundings_(surroundings), progress_(progress),
+          occluders_(target, surroundings, task.keep_grid, progress) {}
+
+    TargetResult run() {
+        if (!task_.error)
+            bake_with_fixed_settings();
+        else if (!task_.method || is_planned(*task_.method))
+            bake_by_plan();
+        else
+            bake_with_tuned_samples();
+        result_.grid = occluders_.summary();
+        for (const std::string& warning : occluders_.warnings())
+            result_.warnings.push_back(warning);
+        if (result_.rmse)
+            warn_of_errors();
+        if (task_.keep_grid)
+            result_.stack = occluders_.take_stack(GridOptions{}.largest_voxel);
+        result_.seconds.grid = occluders_.seconds();
+        return std::move(result_);
+    }
+
+  private:
+    static bool is_planned(const Method& method) {
+        return method.needs_mesh || method.name == "calibrated"; // the cost table has these
+    }
+
+    /// Whether there is a grid regardless of the plan, so the planner cannot choose its voxel.
+    bool has_fixed_grid() const {
+        return target_.grid || task_.keep_grid || target_.voxelizing.grid.voxel > 0.0f ||
+               needs_of(find_method("exact"), task_.attributes).field;
+    }
+
+    bool has_pilot() const { return task_.pilot && task_.attributes.has(Channel::ao); }
+
+    const Pilot& pilot(const PilotOptions& options) {
+        if (!pilot_) {
+            const RaySurface& rays = occluders_.rays();
+            Stopwatch watch;
+            PilotOptions share = options;
+            share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
+            pilot_.emplace(target_.surfels, rays, target_.radius, share);
+            result_.seconds.pilot += watch.lap();
+        }
+        return *pilot_;
+    }
+
+    Settings settings_of(const MethodChoice& choice) const {
+        Settings settings = task_.settings;
+        settings.radius = target_.radius;
+        for (const auto& parameter : choice.settings(target_.radius).parameters)
+            settings.parameters.push_back(parameter); // the last value of a parameter wins
+        if (choice.method->samples_are == SampleKind::rays)
+            settings.parameters.emplace_back("seed", task_.seed);
+        return settings;
+    }
+
+    void evaluate_with(const MethodChoice& choice, const Settings& settings, float largest_voxel) {
+        const OccluderNeeds needs = needs_of(*choice.method, task_.attributes);
+        const Occluders occluders = occluders_.get(needs, largest_voxel);
+        last_voxel_ = largest_voxel;
+        if (!task_.error)
+            check_time(task_.deadline, target_.surfels, occluders, choice, settings, task_.attributes);
+        Progress progress;
+        if (progress_)
+            progress = [&](double done) { progress_("baking", done); };
+        Stopwatch watch;
+        result_.values = evaluate(target_.surfels, occluders, *choice.method, settings, task_.attributes, progress);
+        result_.seconds.occlusion += watch.lap();
+        result_.choice = choice;
+    }
+
+    void measure_error(const PilotOptions& options) {
+        if (!has_pilot() || pilot(options).empty())
+            return;
+        Stopwatch watch;
+        result_.rmse = pilot_->rmse(result_.values[Channel::ao]);
+        result_.seconds.pilot += watch.lap();
+    }
+
+    void bake_with_fixed_settings() {
+        const MethodChoice choice = choice_of(*task_.method, task_.settings);
+        Settings settings = task_.settings;
+        settings.radius = target_.radius;
+        evaluate_with(choice, settings, GridOptions{}.largest_voxel);
+        measure_error(pilot_beside(choice.rays()));
+    }
+
+    void bake_by_plan() {
+        const SurfaceSize size = surface_size(target_.mesh, target_.triangles);
+        const Pilot& pilot = this->pilot(pilot_for(*task_.error));
+        const bool has_grid = has_fixed_grid();
+        const PlanRequest request{
+            .error = *task_.error,
+            .radius = target_.radius,
+            .via = task_.via,
+            .method = task_.method,
+            .seed = task_.seed,
+            .surfels = target_.surfels.size(),
+            .triangles = target_.triangles.size(),
+            .area = size.area,
+            .finest_voxel = surroundings_.fit() ? finest_voxel(size, target_.triangles.size(), target_.voxelizing.grid)
+                                                : std::numeric_limits<double>::infinity(),
+            .has_grid = has_grid,
+            .wanted = task_.attributes};
+        Planner planner(request, pilot);
+        for (;;) {
+            check_time(task_.deadline, planner.expected(), request, pilot);
+            const Plan plan = planner.next();
+            try {
+                evaluate_with(plan.choice, settings_of(plan.choice),
+                              has_grid ? GridOptions{}.largest_voxel : plan.largest_voxel);
+            } catch (const LimitError&) { // clustering removed fewer vertices than planned
+                if (plan.largest_voxel == 0.0f || has_grid)
+                    throw;
+                planner.leave_out(plan.largest_voxel);
+                continue;
+            }
+            result_.reason = plan.reason;
+            measure_error({});
+            if (!result_.rmse || *result_.rmse <= *task_.error || planner.is_last(plan))
+                return;
+            planner.update(plan, *result_.rmse);
+        }
+    }
+
+    /// Tries a method on the pilot's surfels with more and more rays, then with finer voxels, until it meets the error
+    /// or stops improving. The method must evaluate each surfel independently.
+    void bake_with_tuned_samples() {
+        constexpr float coarsest = GridOptions{}.largest_voxel;
+        constexpr int first_rays = 8, max_rays = 4096;
+        constexpr double no_improvement = 0.95; // ratio of errors
+        const Method& method = *task_.method;
+        const Pilot& pilot = this->pilot(pilot_for(*task_.error));
+        const bool chooses_voxel = !has_fixed_grid();
+        struct Best {
+            MethodChoice choice;
+            float largest_voxel = coarsest;
+            double rmse = std::numeric_limits<double>::infinity();
+        } best;
+        best.choice = choose(method);
+        for (float voxel = coarsest; voxel >= coarsest / 4.0f; voxel /= 2.0f) {
+            const double coarser = best.rmse;
+            Occluders occluders = occluders_.rays();
+            try {
+                occluders = occluders_.get({.field = true, .rays = false}, voxel);
+            } catch (const LimitError&) {
+                break;
+            }
+            const auto measure = [&](const MethodChoice& choice) {
+                const double rmse = pilot.empty() ? 0.0 : pilot.rmse_of(method, occluders, settings_of(choice));
+                if (rmse < best.rmse)
+                    best = {choice, voxel, rmse};
+                return rmse;
+            };
+            if (method.samples_are == SampleKind::rays) {
+                double fewer = std::numeric_limits<double>::infinity();
+                for (int rays = first_rays; rays <= max_rays && best.rmse > *task_.error; rays += rays / 2) {
+                    const double rmse = measure(choose(method, rays));
+                    if (rmse > no_improvement * fewer)
+                        break;
+                    fewer = rmse;
+                }
+            } else {
+                measure(choose(method));
+            }
+            if (best.rmse <= *task_.error || !chooses_voxel || best.rmse > no_improvement * coarser)
+                break;
+        }
+        evaluate_with(best.choice, settings_of(best.choice), best.largest_voxel);
+        measure_error({});
+        if (result_.rmse && *result_.rmse > *task_.error)
+            result_.warnings.push_back(fmt::format("{} does not reach an RMSE of {:g} on this mesh; {} came "
+                                                   "closest with {:.2g}: leave out --method, or allow "
+                                                   "a larger --error",
+                                                   method.name, *task_.error, best.choice.label(), *result_.rmse));
+    }
+
+    void warn_of_errors() {
+        const Method& method = *result_.choice.method;
+        const Occluders occluders = occluders_.get({.field = method.needs_grid, .rays = true}, last_voxel_);
+        for (std::string& warning : causes_of(*result_.rmse, target_, task_, method, occluders))
+            result_.warnings.push_back(std::move(warning));
+        if (std::string warning = coarse_faces_warning(target_, result_.values[Channel::ao], occluders_.rays());
+            !warning.empty())
+            result_.warnings.push_back(std::move(warning));
+    }
+
+    const BakeTarget& target_;
+    const BakeTask& task_;
+    Surroundings& surroundings_;
+    const BakeProgress& progress_;
+    TargetOccluders occluders_;
+    std::optional<Pilot> pilot_;
+    TargetResult result_;
+    float last_voxel_ = GridOptions{}.largest_voxel;
+};
+
+}
+
+TargetResult bake_target(const BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
+                         const BakeProgress& progress) {
+    return TargetBake(target, task, surroundings, progress).run();
+}
+
+}

@@ -1,0 +1,55 @@
+/// Bakes one surface: a whole mesh, a connected part of it, or points on it.
+#pragma once
+
+#include "alcove/bake/bake.h"
+#include "alcove/bake/detail/deadline.h"
+#include "alcove/bake/detail/pilot.h"
+#include "alcove/bake/detail/surroundings.h"
+#include "alcove/occlusion/catalog.h"
+
+namespace alcove {
+
+/// Settings that all targets of a bake share.
+struct BakeTask {
+    const Method* method = nullptr; ///< null: planned
+    Settings settings{};            ///< of `method`; the radius is the target's
+    std::optional<double> error{};  ///< RMSE to meet; empty: fixed settings
+    ChannelSet attributes = Channel::ao;
+    Via via = Via::grid;
+    std::uint32_t seed = 0;
+    bool pilot = true;
+    bool keep_grid = false;
+    bool from_file_normals = false; ///< the normals of the surfels come from the file
+    Deadline deadline{std::nullopt};
+};
+
+struct BakeTarget {
+    const Mesh& mesh;
+    std::vector<Triangle> triangles;
+    Frame frame;
+    std::vector<Surfel> surfels;
+    float radius;                    ///< unit space; may be infinite
+    VoxelizeOptions voxelizing;      ///< unit space
+    const GridStack* grid = nullptr; ///< in the same frame; used instead of voxelizing
+    /// Voxel of the grids of occluders, scene units; 0: chosen; empty: the voxel of the target's own grid.
+    std::optional<double> occluder_voxel{};
+    PilotOptions pilot_share{}; ///< only `surfels` is used: the maximum for the pilot of this target
+};
+
+struct TargetResult {
+    ChannelValues values; ///< lengths in the target's unit space
+    MethodChoice choice;
+    std::string reason; ///< see Baked::reason
+    std::optional<double> rmse{};
+    GridSummary grid;
+    GridStack stack; ///< only if BakeTask::keep_grid
+    BakeSeconds seconds;
+    std::vector<std::string> warnings;
+};
+
+/// Bakes with the method of the task or with the cheapest plan. If the pilot measures an RMSE above the one to meet,
+/// plans and bakes again. \throw as bake()
+TargetResult bake_target(const BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
+                         const BakeProgress& progress);
+
+}

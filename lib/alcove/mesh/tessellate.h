@@ -1,0 +1,74 @@
+/// Splits large faces, so that vertex values can represent what varies across them.
+///
+/// A triangle is split from the midpoint of its longest edge to the opposite corner (Rivara
+/// 1984), as in OpenMesh's LongestEdgeT. An edge, even a non-manifold one, is split in all of its faces, so no vertex
+/// ends up inside an edge.
+#pragma once
+
+#include "alcove/mesh/mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+
+namespace alcove {
+
+struct TessellateOptions {
+    double longest = 0.0;               ///< longest edge to keep, scene units; 0: no limit
+    std::size_t most_faces = 4'000'000; ///< limit of the result; the longest edges are split first
+};
+
+/// Splits all edges longer than `longest`.
+///
+/// The existing vertices keep their indices and positions. The new ones follow; each is the midpoint of an edge. A
+/// face that is split is replaced by triangles of the same orientation. The other faces are kept: polygons with no
+/// side longer than `longest` and all corners within twice that distance of the first, and faces with a non-finite
+/// vertex or fewer than three distinct ones.
+///
+/// Normals, texture coordinates, colours and attributes are interpolated, corner_uvs per corner; face colours are
+/// copied. If the mesh was read from a PLY file, its other properties are also kept: numbers of vertices are
+/// interpolated and rounded to the type of the property, lists of vertices are taken from the nearest vertex, and
+/// properties of faces are copied. Lines of an OBJ file that a Mesh does not represent are lost. A mesh without a
+/// split is not changed.
+///
+/// \return the mesh, with additional warnings about lost data and about edges left long because of `most_faces`.
+/// \throw InputError if the length is negative or NaN, or the mesh has infinite extent.
+/// Cost: about 0.5 µs per new face, several times that if `most_faces` takes effect; single-threaded.
+Mesh tessellate(const Mesh& mesh, const TessellateOptions& options);
+
+/// A point on an edge or a face, with its interpolation from other points.
+struct PointBetween {
+    Vec3d position; ///< scene units
+    /// Unit length or zero; interpolated if the mesh has normals, otherwise the area-weighted normal of the adjacent
+    /// faces.
+    Vec3 normal;
+    std::uint32_t face; ///< index in the mesh; for an edge, one of its faces
+    /// Numbers below Mesh::vertex_count() are vertices. The number vertex_count() + i is the i-th point that the
+    /// predicate has been given, counted over all calls.
+    std::array<std::uint32_t, 3> ends;
+    Vec3d weights; ///< of `ends`; sum to 1, the last one is 0 on an edge
+};
+
+/// Returns for each point whether its edge or face should be split. Gets up to about 262,144 points per call.
+using SplitPredicate = std::function<std::vector<bool>(std::span<const PointBetween>)>;
+
+struct AdaptiveTessellateOptions {
+    double shortest = 0.0; ///< edges up to this length are not split, scene units; bounds splits at discontinuities
+    /// Approximate distance between tested points, scene units, with at most 63 points per edge. 0: one point per edge
+    /// and one per face.
+    double spacing = 0.0;
+    std::size_t most_faces = 4'000'000; ///< limit of the result; the longest edges of the last round are split first
+};
+
+/// Splits edges and faces until `split` returns false for all their points.
+///
+/// An edge is split if one of its points needs it. The longest edge of a face is split if a point inside needs it, and
+/// whenever another edge of the face is split, which bounds the angles from below. Each edge and face is tested once.
+/// Everything else is as above.
+///
+/// \throw InputError as above. std::invalid_argument if the predicate does not return one value per point. Any
+/// exception of the predicate.
+/// Cost: about 3 µs per new face, in addition to the predicate; single-threaded.
+Mesh tessellate(const Mesh& mesh, const SplitPredicate& split, const AdaptiveTessellateOptions& options);
+
+}

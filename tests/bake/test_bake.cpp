@@ -1,0 +1,232 @@
+/// bake(), add() and check().
+#include "alcove/bake/bake.h"
+
+#include "alcove/base/errors.h"
+#include "alcove/measure/measure.h"
+#include "alcove/mesh/triangulate.h"
+#include "real_mesh.h"
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace alcove {
+namespace {
+
+using test::add_part;
+using test::box_mesh;
+using test::sphere_mesh;
+
+double rmse_of_ao(const Mesh& mesh, const std::vector<float>& ao, float radius) {
+    const MeasuredMesh measured("mesh", mesh);
+    const Truth truth = make_truth(measured, radius);
+    std::vector<float> values;
+    for (const std::uint32_t vertex : truth.vertices)
+        values.push_back(ao[vertex]);
+    return compare(values, truth.ao).rmse;
+}
+
+TEST(Bake, MeetsTheErrorOfEachQualityAndNamesItsMethod) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    for (const Quality quality : {Quality::draft, Quality::good, Quality::fine}) {
+        const Baked baked = bake(mesh, {.radius = "10%", .quality = quality});
+        ASSERT_EQ(baked.ao().size(), mesh.vertex_count());
+        ASSERT_TRUE(baked.rmse && baked.target);
+        EXPECT_EQ(*baked.target, rmse_of(quality));
+        EXPECT_LE(*baked.rmse, *baked.target);
+        EXPECT_FALSE(baked.missed());
+        const double rmse = rmse_of_ao(mesh, baked.ao(), 0.1f);
+        EXPECT_LE(rmse, 1.15 * *baked.target) << baked.method;
+        EXPECT_NEAR(*baked.rmse, rmse, std::max(0.3 * rmse, 0.002)) << baked.method;
+        EXPECT_NE(baked.method, "");
+        EXPECT_NEAR(baked.radius, 0.1 * mesh.box().diagonal(), 1e-6 * mesh.box().diagonal());
+    }
+}
+
+TEST(Bake, PlansAsViaAllows) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    const Baked grid = bake(mesh), rays = bake(mesh, {.via = Via::mesh}), any = bake(mesh, {.via = Via::automatic});
+    EXPECT_TRUE(grid.method.starts_with("guided") || grid.method.starts_with("calibrated")) << grid.method;
+    EXPECT_GT(grid.grid_summary.levels, 0u);
+    EXPECT_TRUE(rays.method.starts_with("exact:")) << rays.method;
+    EXPECT_EQ(rays.grid_summary.levels, 0u);
+    for (const Baked* baked : {&grid, &rays, &any}) {
+        EXPECT_LE(*baked->rmse, 0.02);
+        EXPECT_EQ(baked->reason, "");
+    }
+}
+
+TEST(Bake, TunesTheNamedMethodToAnError) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    for (const char* method : {"exact", "guided", "traced"}) {
+        const Baked baked = bake(mesh, {.error = 0.04, .method = method});
+        EXPECT_TRUE(baked.method.starts_with(method)) << baked.method;
+        EXPECT_LE(*baked.rmse, 0.04) << baked.method;
+        EXPECT_TRUE(baked.warnings.empty()) << baked.warnings.front();
+    }
+    const Baked missed = bake(mesh, {.error = 0.01, .method = "classic"});
+    EXPECT_TRUE(missed.missed());
+    ASSERT_FALSE(missed.warnings.empty());
+    EXPECT_NE(missed.warnings.front().find("does not reach"), std::string::npos) << missed.warnings.front();
+}
+
+TEST(Bake, PointsAtTheVerticesHaveTheirValues) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    const std::vector<Vec3> normals = area_weighted_normals(mesh, triangulate(mesh).triangles);
+    std::vector<SurfacePoint> points;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+        points.push_back({mesh.positions[v], normals[v]});
+    for (const char* method : {"exact", "traced", "guided", "classic"})
+        EXPECT_EQ(bake(mesh, points, {.method = method}).ao(), bake(mesh, {.method = method}).ao()) << method;
+}
+
+TEST(Bake, APointWithoutANormalTakesThatOfItsFace) {
+    Mesh room = box_mesh(Vec3d(1.0), 4); // seen from the inside
+    for (std::size_t f = 0; f < room.face_count(); ++f)
+        std::reverse(room.corners.begin() + room.face_begin[f], room.corners.begin() + room.face_begin[f + 1]);
+    const auto middle_of = [&](std::uint32_t f) {
+        Vec3d sum(0.0);
+        for (const std::uint32_t v : room.face(f))
+            sum += room.positions[v];
+        return sum / double(room.face(f).size());
+    };
+    std::vector<SurfacePoint> points;
+    for (std::uint32_t f = 0; f < room.face_count(); ++f)
+        points.push_back({middle_of(f), Vec3(0.0f), f});
+    points.push_back({Vec3d(0.0), Vec3(0.0f)}); // neither a normal nor a face
+    const Baked baked = bake(room, points, {.radius = "inf", .via = Via::mesh});
+    for (std::uint32_t f = 0; f < room.face_count(); ++f)
+        EXPECT_EQ(baked.ao()[f], 0.0f) << "everything in a closed room is occluded";
+    EXPECT_EQ(baked.ao().back(), 1.0f);
+    ASSERT_EQ(baked.warnings.size(), 1u);
+    EXPECT_NE(baked.warnings.front().find("1 of "), std::string::npos) << baked.warnings.front();
+    points.front().face = 1000;
+    EXPECT_THROW(bake(room, points), InputError);
+}
+
+TEST(Bake, PartsByThemselvesArePlannedToo) {
+    Mesh pair;
+    add_part(pair, sphere_mesh(3), 1.0, {0, 0, 0});
+    add_part(pair, sphere_mesh(3), 1.0, {1.5, 0, 0});
+    for (const float ao : bake(pair, {.radius = "0.5", .self = true}).ao())
+        EXPECT_NEAR(ao, 1.0f, 0.03f);
+    const Baked together = bake(pair, {.radius = "0.5"});
+    EXPECT_LT(*std::min_element(together.ao().begin(), together.ao().end()), 0.5f);
+}
+
+TEST(Bake, DoesNotDependOnThreads) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    const Baked one = bake(mesh, {.attributes = Channel::ao | Channel::bent_normal | Channel::thickness, .threads = 1});
+    const Baked three =
+        bake(mesh, {.attributes = Channel::ao | Channel::bent_normal | Channel::thickness, .threads = 3});
+    EXPECT_EQ(one.method, three.method);
+    for (const Channel channel : {Channel::ao, Channel::bent_normal, Channel::thickness})
+        EXPECT_EQ(one[channel], three[channel]);
+    EXPECT_EQ(one.rmse, three.rmse);
+}
+
+TEST(Bake, ReportsProgressAndStopsWhereThatThrows) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    std::set<std::string, std::less<>> works;
+    bake(mesh, {.progress = [&](std::string_view work, double done) {
+             works.emplace(work);
+             EXPECT_TRUE(done >= 0.0 && done <= 1.0);
+         }});
+    EXPECT_EQ(works, (std::set<std::string, std::less<>>{"baking", "voxelizing"}));
+    struct Cancelled : std::exception {};
+    EXPECT_THROW(bake(mesh, {.progress = [](std::string_view, double) { throw Cancelled(); }}), Cancelled);
+}
+
+TEST(Bake, RefusesWhatWouldClearlyTakeTooLong) {
+    const Mesh mesh = test::RealMesh("armadillo.off").mesh;
+    const BakeOptions options{.method = "exact", .parameters = {{"rays", 1e6}}, .pilot = false, .time_limit = 1.0};
+    try {
+        bake(mesh, options);
+        FAIL() << "26 billion rays in a second";
+    } catch (const TimeLimitError& error) {
+        EXPECT_NE(std::string(error.what()).find("use --rays "), std::string::npos) << error.what();
+    }
+}
+
+TEST(Bake, WarnsOfFilesNormalsThatFaceAgainstTheirFaces) {
+    Mesh sphere = sphere_mesh(4);
+    for (const Vec3& n : area_weighted_normals(sphere, triangulate(sphere).triangles))
+        sphere.normals.push_back(-n);
+    const Baked baked = bake(sphere, {.method = "classic"});
+    ASSERT_TRUE(baked.rmse);
+    ASSERT_GT(*baked.rmse, 0.1);
+    ASSERT_EQ(baked.warnings.size(), 1u);
+    EXPECT_NE(baked.warnings.front().find("normals of the file point to the back of the faces at 100 %"),
+              std::string::npos)
+        << baked.warnings.front();
+}
+
+/// A floor of one quad under a box. Its corners are unoccluded, so no vertex represents the shadow under the box.
+Mesh box_over_quad() {
+    Mesh mesh;
+    mesh.positions = {{-4, 0, -4}, {4, 0, -4}, {4, 0, 4}, {-4, 0, 4}};
+    mesh.add_face(std::vector<std::uint32_t>{0, 3, 2, 1});
+    add_part(mesh, box_mesh(Vec3d(1.0), 1), 1.0, {0, 1.3, 0});
+    return mesh;
+}
+
+TEST(Bake, WarnsOfFacesTooLargeForWhatHappensBetweenTheirVertices) {
+    const auto warnings = bake(box_over_quad(), {.radius = "1"}).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings.front().find("--tessellate"), std::string::npos) << warnings.front();
+    EXPECT_TRUE(bake(box_mesh(Vec3d(1.0), 1), {.radius = "0.2"}).warnings.empty())
+        << "large faces without occlusion are not a problem";
+}
+
+TEST(Bake, ChecksItsOptions) {
+    const auto message_of = [](const BakeOptions& options) {
+        try {
+            check(options);
+            return std::string();
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_EQ(message_of({}), "");
+    EXPECT_NE(message_of({.error = 0.0}).find("0.001"), std::string::npos);
+    EXPECT_NE(message_of({.method = "clasic"}).find("no method 'clasic'"), std::string::npos);
+    EXPECT_NE(message_of({.parameters = {{"rays", 3}}}).find("method"), std::string::npos);
+    EXPECT_NE(message_of({.method = "classic", .parameters = {{"rays", 3}}}).find("no parameter 'rays'"),
+              std::string::npos);
+    EXPECT_NE(message_of({.pilot = false}).find("pilot"), std::string::npos);
+    EXPECT_NE(message_of({.radius = "3vx"}).find("voxel"), std::string::npos);
+    EXPECT_NE(message_of({.voxel = Length("2vx")}).find("vx"), std::string::npos);
+    EXPECT_NE(message_of({.up = Vec3d(0.0)}).find("0,0,0"), std::string::npos);
+    EXPECT_NE(message_of({.attributes = Channel::ao_short}).find("multiscale"), std::string::npos);
+    EXPECT_NE(message_of({.attributes = {}}).find("attributes"), std::string::npos);
+    EXPECT_NE(message_of({.error = 0.1, .attributes = Channel::convexity}).find("ao"), std::string::npos);
+    EXPECT_NE(message_of({.self = true, .keep_grid = true}).find("grid"), std::string::npos);
+}
+
+TEST(Bake, AddsWhatItBaked) {
+    Mesh cube = box_mesh(Vec3d(1.0), 1);
+    const Baked baked = bake(cube, {.attributes = Channel::ao | Channel::bent_normal});
+    EXPECT_TRUE(add(cube, baked));
+    EXPECT_EQ(cube.find_attribute("ao")->values, baked.ao());
+    EXPECT_EQ(cube.find_attribute("quality")->values, baked.ao());
+    EXPECT_EQ(cube.find_attribute("bent_normal")->components, 3);
+    EXPECT_EQ(cube.added_colors.size(), cube.vertex_count());
+    ASSERT_EQ(cube.added_comments.size(), 1u);
+    EXPECT_TRUE(cube.added_comments.front().starts_with("alcove ")) << cube.added_comments.front();
+
+    Mesh painted = box_mesh(Vec3d(1.0), 1);
+    painted.vertex_colors.assign(painted.vertex_count(), Color{1, 2, 3, 255});
+    EXPECT_FALSE(add(painted, baked)) << "the mesh has its own colours";
+    EXPECT_TRUE(painted.added_colors.empty());
+    EXPECT_TRUE(add(painted, baked, {.color = ColorUse::ao}));
+
+    Mesh other = sphere_mesh(2);
+    EXPECT_THROW(add(other, baked), InputError);
+}
+
+}
+}
