@@ -29,6 +29,7 @@ struct BakeVerb {
     std::vector<std::string> inputs, occluders;
     std::string output, grid, write_grid, tessellate;
     std::optional<Vec3d> up;
+    std::optional<Quality> quality;
     float adaptivity = 0.0f;
     bool strict = false;
 };
@@ -205,6 +206,9 @@ class BakeJob {
 void run(BakeVerb& verb) {
     verb.bake.threads = verb.common.threads;
     verb.bake.method = verb.method.method;
+    verb.bake.quality = verb.quality.value_or(verb.bake.quality);
+    if (verb.quality && !verb.method.method.empty()) // tunes the method, as --error does
+        verb.bake.error = rmse_of(*verb.quality);
     verb.bake.parameters = verb.method.parameters;
     verb.bake.seed = verb.method.seed.value_or(0);
     verb.bake.up = verb.up.value_or(verb.bake.up);
@@ -224,9 +228,9 @@ void run(BakeVerb& verb) {
 
 void add_files(CLI::App& app, BakeVerb& verb) {
     app.add_option("input", verb.inputs,
-                   "Meshes to bake (ply, obj, off, stl), or level sets (vdb) to mesh at their zero surface first")
+                   "Meshes to bake (ply, obj, off, stl), or level sets (vdb), whose zero surface is meshed first")
         ->required();
-    app.add_option("-o,--output", verb.output, "Mesh to write (ply, obj), or a folder for one output per input")
+    app.add_option("-o,--output", verb.output, "Mesh to write (ply, obj), or a folder that gets one mesh per input")
         ->required();
 }
 
@@ -234,23 +238,28 @@ void add_files(CLI::App& app, BakeVerb& verb) {
 void add_planning(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
     add_radius_option(app, bake.radius, "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), inf");
-    CLI::Option* quality = add_choice<Quality>(
-        app, "--quality", bake.quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
-        "draft: RMSE 0.05 against exact rays; good: 0.02; fine: 0.005. The planner picks the cheapest method");
+    CLI::Option* quality = add_choice<std::optional<Quality>>(
+        app, "--quality", verb.quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
+        "Maximum RMSE against exact rays: draft 0.05, good 0.02, fine 0.005; the planner picks the cheapest method");
     quality->type_name("NAME")->default_str("good");
     app.add_option("--error", bake.error, "Any other RMSE to meet, at least 0.001 and below 1")
         ->excludes(quality)
         ->type_name("E");
-    add_choice<Via>(app, "--via", bake.via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}},
-                    "Methods to choose from. grid: those on level sets, and exact rays only if level sets would cost "
-                    "far more; auto: all; mesh: exact rays")
-        ->type_name("NAME")
-        ->default_str("grid");
-    app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error is not met");
+    CLI::Option* via =
+        add_choice<Via>(
+            app, "--via", bake.via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}},
+            "Methods to choose from. grid: those on level sets, and exact rays only if level sets would cost "
+            "far more; auto: all; mesh: exact rays")
+            ->type_name("NAME")
+            ->default_str("grid");
+    app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error target is not met");
     add_method_options(app, verb.method,
-                       "Bake with this method: with its defaults, or with as many rays or samples as --error needs: ");
+                       "Use this method, with its defaults or, with --error, as many rays or samples as needed. "
+                       "One of: ");
+    via->excludes(app.get_option("--method"));
     app.add_flag_callback(
-        "--no-pilot", [&bake] { bake.pilot = false; }, "Do not measure the error of the bake at some of its vertices");
+        "--no-pilot", [&bake] { bake.pilot = false; },
+        "Do not measure the error of the bake (normally measured at a sample of its vertices)");
 }
 
 /// The attributes, and the vertices to bake.
@@ -265,15 +274,15 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
     add_choice<NormalSource>(
         app, "--normals", bake.normals,
         {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"area", NormalSource::area}},
-        "auto: those of the file, or area-weighted ones if it has none; file; area")
+        "file: normals of the file; area: area-weighted face normals; auto: file if there are any, else area")
         ->type_name("SOURCE")
         ->default_str("auto");
     app.add_option("--tessellate", verb.tessellate,
                    "Split faces first, so that ao can vary across them: edges longer than LEN, or auto: wherever ao "
                    "differs from its interpolation by more than the error")
         ->check(parsable([](const std::string& text) {
-            if (text != "auto" && Length(text).unit == Length::Unit::voxels)
-                throw InputError("takes auto, 0.2 (scene units) or 10%, not vx");
+            if (text != "auto")
+                length_without_vx(text, "auto, 0.2 (scene units) or 10% (of the diagonal)");
         }))
         ->type_name("LEN");
 }
@@ -289,7 +298,7 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
     app.add_option(
            "--write-grid", verb.write_grid,
            "Also write the level sets to a .vdb. They are built from all triangles; without this option, vertices "
-           "closer than a voxel may be clustered")
+           "closer than half a voxel may be clustered")
         ->type_name("FILE");
 }
 
@@ -305,10 +314,12 @@ void add_occluders(CLI::App& app, BakeVerb& verb) {
 void add_colors(CLI::App& app, BakeVerb& verb) {
     add_choice<ColorUse>(
         app, "--color", verb.add.color, {{"ao", ColorUse::ao}, {"none", ColorUse::none}},
-        "ao: also write ao as vertex colours and `quality`; none: do not. Default: ao, unless the input has either")
+        "ao: also write ao as vertex colours and `quality`; none: do not. Default: ao, unless the input has its own "
+        "vertex colours or `quality`")
         ->type_name("WHAT");
     add_choice<ColorEncoding>(app, "--color-encoding", verb.add.encoding,
-                              {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}}, "srgb, or raw (255 x ao)")
+                              {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}},
+                              "Encoding of the vertex colours: srgb, or raw (255 x ao)")
         ->type_name("CODE")
         ->default_str("srgb");
 }

@@ -18,6 +18,11 @@ bool is_folder(const std::string& output) {
     return output.ends_with('/') || (!is_mesh && fs::is_directory(output));
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code missing;
+    return a == b || fs::equivalent(a, b, missing);
+}
+
 std::string name_in_folder(const fs::path& input, bool with_folder) {
     const std::string kept = extension(input.string()) == ".obj" ? input.extension().string() : ".ply";
     const std::string name = input.stem().string() + kept;
@@ -42,17 +47,17 @@ std::vector<BatchFile> batch_files(const std::vector<std::string>& inputs, const
         const std::string name = name_in_folder(input, uses[name_in_folder(input, false)] > 1);
         const std::string file = (fs::path(output) / name).string();
         if (const auto [other, is_new] = input_of.emplace(file, input); !is_new)
-            throw UsageError(
-                fmt::format("{} and {} would both become {}: bake them in separate runs", other->second, input, file));
+            throw UsageError(same_file(other->second, input)
+                                 ? fmt::format("{} is given twice", input)
+                                 : fmt::format("{} and {} would both become {}: bake them in separate runs",
+                                               other->second, input, file));
         files.push_back({input, file});
     }
     for (const BatchFile& file : files)
-        for (const std::string& input : inputs) {
-            std::error_code missing;
-            if (fs::equivalent(file.output, input, missing))
+        for (const std::string& input : inputs)
+            if (same_file(file.output, input))
                 throw UsageError(
                     fmt::format("{} would replace the input {}: choose another folder", file.output, input));
-        }
     std::error_code failed;
     fs::create_directories(output, failed);
     if (failed)

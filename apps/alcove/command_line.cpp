@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 namespace alcove::cli {
 namespace {
@@ -49,16 +50,37 @@ std::string explain_verb(const CLI::App& program, const std::vector<std::string>
 
 /// Rephrases a message of CLI11 such as "Could not convert: --threads = -1".
 std::string explain_conversion(const CLI::App& verb, const std::string& said) {
-    static const std::map<std::string, std::string> kinds{
-        {"UINT", "a whole number, 0 or more"}, {"N", "a whole number in its range"}, {"DEG", "a number"}};
+    // By option or by type.
+    static const std::map<std::string, std::string> kinds{{"--seed", "a whole number from 0 to 4294967295"},
+                                                          {"UINT", "a whole number, 0 or more"},
+                                                          {"N", "a whole number in its range"},
+                                                          {"E", "a number"},
+                                                          {"DEG", "a number"}};
     const std::size_t name = said.find("--"), equals = said.find(" = ");
     if (name == std::string::npos || equals == std::string::npos)
         return said;
     const std::string option = said.substr(name, equals - name);
     const CLI::Option* known = verb.get_option_no_throw(option);
-    const auto kind = kinds.find(known ? known->get_type_name() : "");
+    const auto kind = kinds.find(known && !kinds.contains(option) ? known->get_type_name() : option);
     return fmt::format("{} takes {}, not '{}'", option, kind == kinds.end() ? "a value of another type" : kind->second,
                        said.substr(equals + 3));
+}
+
+/// Rephrases a message of CLI11 such as "--frames: Value 0 not in range 1 to 100000", and of our own validators, such as
+/// "--voxel: takes ...".
+std::string explain_value(const std::string& option, const std::string& said) {
+    static const std::regex out_of_range(": Value (.*) not in range (.*) to (.*)");
+    const std::string rest = said.substr(option.size());
+    std::smatch parts;
+    if (std::regex_match(rest, parts, out_of_range))
+        return fmt::format("{} takes a number from {:g} to {:g}, not {}", option, std::stod(parts[2]),
+                           std::stod(parts[3]), parts[1].str());
+    return option + rest.substr(std::min<std::size_t>(1, rest.size()));
+}
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+    const std::size_t at = text.find(part);
+    return at == std::string::npos ? text : text.replace(at, part.size(), by);
 }
 
 }
@@ -91,17 +113,21 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error, const
     }
     const std::string said = error.what();
     const std::string option = said.substr(0, said.find(':'));
-    if (error.get_name() == "ValidationError") // "--voxel: takes ..." from our own validators
-        return fmt::format("{}{}; {}", option, said.substr(std::min(option.size() + 1, said.size())), help);
+    if (error.get_name() == "ValidationError")
+        return fmt::format("{}; {}", explain_value(option, said), help);
     if (error.get_name() == "ConversionError")
         return fmt::format("{}; {}", explain_conversion(verb, said), help);
     if (error.get_name() == "ArgumentMismatch")
         return fmt::format("{} {}; {}", option, said.ends_with("missing") ? "needs a value" : "is given more than once",
                            help);
+    if (error.get_name() == "ExcludesError")
+        return fmt::format("{} cannot be combined; {}", replaced(said, " excludes ", " and "), help);
+    if (error.get_name() == "RequiresError")
+        return fmt::format("{}; {}", replaced(said, " requires ", " needs "), help);
     if (error.get_name() == "RequiredError" && !extra.empty())
         return fmt::format("{} (did you mean -o {}?); {}", said, extra.front(), help);
     if (!extra.empty())
-        return fmt::format("{} takes no further argument '{}'; {}", verb.get_name(), extra.front(), help);
+        return fmt::format("unexpected argument '{}'; {}", extra.front(), help);
     return fmt::format("{}; {}", said, help);
 }
 

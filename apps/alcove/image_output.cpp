@@ -47,8 +47,9 @@ Pass first(PassSet wanted) {
 void add_image_options(CLI::App& verb, ImageRequest& request) {
     verb.add_option("-o,--output", request.file, "Image to write (exr, or png of one pass)")->required();
     verb.add_option("--pass", request.passes,
-                    "What the image shows: beauty, ao, depth, normal (of an exr, these four by default), position, "
-                    "convexity, shadow, steps, object, or all; a png shows one. Repeat the option for more")
+                    "Pass to write: beauty, ao, depth, normal, position, convexity, shadow, steps, object or all. An "
+                    "exr gets beauty, ao, depth and normal by default; a png holds one pass. Repeat the option for "
+                    "more")
         ->option_text("NAME");
     add_choice<Precision>(verb, "--precision", request.precision,
                           {{"half", Precision::half}, {"float", Precision::single}},

@@ -60,7 +60,11 @@ void add_ply(Facts& facts, const PlyDocument& document) {
         lines.push_back(fmt::format("{} {}: {}", grouped(element.count), element.name, fmt::join(names, " ")));
     }
     facts.add("elements", elements, lines);
-    facts.add("comments", document.comments, document.comments);
+    lines.clear();
+    constexpr std::string_view keyword = "comment ";
+    for (const std::string& comment : document.comments)
+        lines.push_back(comment.starts_with(keyword) ? comment.substr(keyword.size()) : comment);
+    facts.add("comments", document.comments, lines);
 }
 
 void add_obj(Facts& facts, const ObjDocument& document) {
@@ -108,7 +112,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
     const bool solid = d.closed() && d.inverted_components == 0;
     facts.add("sign", solid ? "solid" : "sheet",
               d.components == 0 ? "none: there is nothing to bake"
-              : solid           ? "a solid, unless one part is inside another"
+              : solid           ? d.components == 1 ? "a solid" : "a solid, unless one part is inside another"
                                 : "a sheet: faces occlude from both sides, and there is no inside");
 }
 

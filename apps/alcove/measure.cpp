@@ -50,9 +50,9 @@ std::vector<std::string> split(const std::string& text) {
     return words;
 }
 
-Length parse_length(const char* option, const std::string& word) {
+Length parse_length(const char* option, const std::string& word, std::string_view forms) {
     try {
-        return Length(word);
+        return length_without_vx(word, forms);
     } catch (const InputError& error) {
         throw UsageError(fmt::format("{} {}", option, error.what()));
     }
@@ -60,21 +60,19 @@ Length parse_length(const char* option, const std::string& word) {
 
 std::vector<WrittenLength> parse_radii(const std::string& text) {
     std::vector<WrittenLength> radii;
-    for (const std::string& word : split(text)) {
-        radii.push_back({word, parse_length("--radius", word)});
-        if (radii.back().length.unit == Length::Unit::voxels)
-            throw UsageError("--radius does not take vx here: write 0.2 (scene units) or 10%");
-    }
+    for (const std::string& word : split(text))
+        radii.push_back({word, parse_length("--radius", word, "0.2 (scene units), 10% (of the diagonal) or inf")});
     return radii;
 }
 
 /// `auto` has the value 0.
 std::vector<WrittenLength> parse_voxels(const std::string& text) {
+    constexpr const char* voxel_forms = "0.2 (scene units), 0.5% (of the diagonal) or auto";
     std::vector<WrittenLength> voxels;
     for (const std::string& word : split(text)) {
-        voxels.push_back({word, word == "auto" ? Length{} : parse_length("--voxel", word)});
-        if (voxels.back().length.unit == Length::Unit::voxels || std::isinf(voxels.back().length.value))
-            throw UsageError("--voxel takes 0.2 (scene units), 0.5% or auto, not '" + word + "'");
+        voxels.push_back({word, word == "auto" ? Length{} : parse_length("--voxel", word, voxel_forms)});
+        if (std::isinf(voxels.back().length.value))
+            throw UsageError(fmt::format("--voxel takes {}, not '{}'", voxel_forms, word));
     }
     return voxels;
 }
@@ -232,12 +230,14 @@ void print(const std::vector<Measurement>& measurements) {
     std::string mesh;
     for (const Measurement& m : measurements) {
         if (m.mesh != mesh)
-            fmt::print("{}{}: {} vertices, compared at {}\n{:>22} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n",
+            fmt::print("{}{}: {} vertices, compared at {}; radius and voxel are fractions of the diagonal\n"
+                       "{:>22} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n",
                        mesh.empty() ? "" : "\n", m.mesh, grouped(m.vertices), grouped(m.error.count), "method",
-                       "radius", "voxel", "rmse", "bias", "truth sd", "CPU s");
+                       "radius", "voxel", "rmse", "bias", "ao sd", "CPU s");
         mesh = m.mesh;
-        fmt::print("{:>22} {:>8.4g} {:>8.4g} {:>8.4f} {:>+8.4f} {:>8.4f} {:>10.4g}\n", m.label(), m.radius, m.voxel,
-                   m.error.rmse, m.error.bias, m.error.deviation, m.seconds());
+        fmt::print("{:>22} {:>8.4g} {:>8} {:>8.4f} {:>+8.4f} {:>8.4f} {:>10.4g}\n", m.label(), m.radius,
+                   m.voxel > 0.0 ? fmt::format("{:.4g}", m.voxel) : "-", m.error.rmse, m.error.bias,
+                   m.error.deviation, m.seconds());
     }
 }
 
@@ -283,7 +283,7 @@ void add_measure(CLI::App& program) {
         ->type_name("LEN,...")
         ->capture_default_str();
     verb->add_option("--methods", options->methods,
-                     "NAME, or NAME:N with N samples or rays. Default: all, and some at several N")
+                     "NAME, or NAME:N with N samples or rays. Default: all methods, some with several N")
         ->type_name("NAME[:N],...");
     verb->add_option("--report", options->report, "Write a page with charts and images (html)")->type_name("FILE");
     verb->add_option("--json", options->json,

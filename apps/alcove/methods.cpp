@@ -54,7 +54,7 @@ void print(const MethodInfo& method, ChannelSet gives) {
     line("gives", names_of(gives));
     line("formula", method.formula);
     line("source", method.source);
-    line("cost", fmt::format("{} map() calls per point", method.cost));
+    line("cost", method.cost);
     line("good", method.good);
     line("bad", method.bad);
     std::string_view key = "set";

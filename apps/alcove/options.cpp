@@ -20,9 +20,7 @@ namespace {
 std::optional<Length> parse_voxel(const std::string& text) {
     if (text == "auto")
         return {};
-    const Length voxel(text);
-    if (voxel.unit == Length::Unit::voxels)
-        throw InputError("defines the unit vx: give it as 0.2 (scene units) or 0.5%");
+    const Length voxel = length_without_vx(text, "0.2 (scene units), 0.5% (of the diagonal) or auto");
     if (std::isinf(voxel.value))
         throw InputError("takes a finite length, not 'inf': write 0.2 (scene units) or 0.5%");
     return voxel;
@@ -59,6 +57,15 @@ std::pair<std::string, double> parse_setting(const std::string& setting) {
 
 }
 
+Length length_without_vx(const std::string& text, std::string_view forms) {
+    try {
+        if (const Length length(text); length.unit != Length::Unit::voxels)
+            return length;
+    } catch (const InputError&) { // the message below fits better
+    }
+    throw InputError(fmt::format("takes {}, not '{}'", forms, text));
+}
+
 void add_run_options(CLI::App& verb, CommonOptions& options) {
     verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
     add_choice<ProgressMode>(verb, "--progress", options.progress,
@@ -71,7 +78,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
     verb.add_option_function<double>(
             "--time-limit", [](const double& seconds) { limit_time(seconds); },
             "Stop after this many seconds with exit code 1 and leave files unchanged; a bake or image that would "
-            "clearly take longer is refused, with settings that would fit")
+            "clearly take longer is refused, and the message names settings that fit")
         ->check(parsable([](const std::string& text) {
             char* end = nullptr;
             const double seconds = std::strtod(text.c_str(), &end);

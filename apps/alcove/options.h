@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace alcove::cli {
@@ -81,6 +82,9 @@ void add_run_options(CLI::App& verb, CommonOptions& options);
 
 /// Adds the run options and --json.
 void add_common_options(CLI::App& verb, CommonOptions& options);
+
+/// A length that is not in vx. \throw InputError "takes <forms>, not '<text>'" for any other text.
+Length length_without_vx(const std::string& text, std::string_view forms);
 
 /// Adds --radius.
 void add_radius_option(CLI::App& verb, Length& radius, const std::string& description);

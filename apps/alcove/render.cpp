@@ -173,12 +173,13 @@ class RenderJob {
     }
 
     void print_line(const BuiltScene& built) const {
-        const std::string drawn = options_.frames
-                                      ? fmt::format("{} frames to {}, {} existed", frames_.size(),
-                                                    output_.frame_file(*options_.frames, *options_.frames), skipped())
-                                      : options_.image.file;
-        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}, voxel {:.4g}\n", drawn, scene_.size.width,
-                   scene_.size.height, name_of_method(scene_, built), radius_of(built), built.voxel);
+        std::string drawn = frames_.front().file;
+        if (options_.frames)
+            drawn = fmt::format("wrote {} of {} frames, {}{}", frames_.size(), *options_.frames, drawn,
+                                frames_.size() > 1 ? " to " + frames_.back().file : "");
+        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}{}\n", drawn, scene_.size.width,
+                   scene_.size.height, name_of_method(scene_, built), radius_of(built),
+                   built.voxel > 0.0 ? fmt::format(", voxel {:.4g}", built.voxel) : "");
     }
 
     void print_object(const BuiltScene& built, const Camera& start, const std::vector<std::string>& warnings) const {

@@ -77,7 +77,7 @@ void choose_occlusion(const SceneRequest& request, SceneOcclusion& occlusion) {
 void add_scene_options(CLI::App& verb, SceneRequest& request) {
     verb.add_option("input", request.input, "Scene (toml), mesh (ply, obj, off, stl) or level set (vdb) to draw")
         ->required();
-    verb.add_option("--size", request.size, "Pixels")->type_name("WxH")->default_str("1280x720");
+    verb.add_option("--size", request.size, "Image size in pixels")->type_name("WxH")->default_str("1280x720");
     verb.add_option("--pixel-samples", request.pixel_samples, "Rays per pixel")
         ->type_name("N")
         ->check(CLI::Range(1, 1024))
@@ -91,7 +91,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     CLI::Option* quality = add_choice<std::optional<Quality>>(
         verb, "--quality", request.quality,
         {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
-        "Number of rays of the default method, guided: draft, good, fine");
+        "Quality of the default method, guided, which sets its number of rays: draft, good, fine");
     quality->type_name("NAME")->default_str("good");
     add_method_options(verb, request.method, "Estimator, image method (march_steps, screen_space), or none: ");
     verb.get_option("--method")->excludes(quality);
@@ -102,11 +102,11 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
                "Point that the camera looks at; default: the centre");
     add_triple(verb, "--up", request.up, Triple::direction, "Up direction")->default_str("0,1,0");
     verb.add_option("--fov", request.fov, "Horizontal field of view in degrees")->type_name("DEG")->default_str("40");
-    verb.add_flag("--no-ground", request.no_ground, "Leave out the plane below the lowest point");
+    verb.add_flag("--no-ground", request.no_ground, "Leave out the plane through the lowest point");
     verb.add_flag("--no-shadow", request.no_shadow, "Sunlight casts no shadows");
     add_grid_options(verb, request.voxel, request.sign);
     add_choice<std::optional<bool>>(verb, "--normals", request.own_normals, {{"field", false}, {"mesh", true}},
-                                    "mesh: smooth except at edges; field: those of the level set")
+                                    "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
         ->type_name("NAME")
         ->default_str("mesh");
 }

@@ -1,4 +1,4 @@
-// The front door from an installed package: a valley, a floor and a wall that meet at a right angle, against its closed
+// Calls bake() from an installed package: a valley, a floor and a wall that meet at a right angle, against its closed
 // form.
 #include <alcove/alcove.h>
 

@@ -74,8 +74,8 @@ Mesh with_faces_twice(const Mesh& mesh) {
     return twice;
 }
 
-/// Compares with exact rays at vertices outside of the solid only: those inside are buried, but rays from behind the
-/// faces see the open.
+/// Compares with exact rays at vertices outside of the solid only: those inside should be buried, but rays that start
+/// behind the faces escape.
 Result outside_against_exact(const Mesh& mesh, const Methods& methods, double bound) {
     const Baked baked(mesh);
     const std::vector<float> truth = baked.truth();

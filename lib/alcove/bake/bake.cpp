@@ -175,11 +175,16 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, std::string_vie
     }
 }
 
+/// Whether the file was written by an earlier bake.
+bool is_baked(const Mesh& mesh) {
+    return mesh.source && mesh.source->has_comment(provenance);
+}
+
 /// Whether to add ao as colours and `quality`: not if the mesh already has either, unless an earlier bake added them.
 bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
         return baked.attributes.has(Channel::ao) && use == ColorUse::ao;
-    if (mesh.source && mesh.source->has_comment(provenance))
+    if (is_baked(mesh))
         return true;
     return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
 }
@@ -206,6 +211,8 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
     if (colored) {
         mesh.added_colors = grey_colors(baked.ao(), options.encoding);
         mesh.set_attribute({"quality", 1, baked.ao()});
+    } else if (is_baked(mesh) && mesh.source->has_vertex_property("quality") && !baked.ao().empty()) {
+        mesh.set_attribute({"quality", 1, baked.ao()}); // that of the earlier bake is out of date
     }
     for (const ChannelInfo& channel : channels)
         if (const auto& values = baked[channel.channel]; !values.empty())

@@ -93,7 +93,7 @@ struct GridSummary {
     Sign sign = Sign::solid;
     bool clustered = false; ///< built from clustered vertices, see GridOptions::cluster
 
-    std::string text() const; ///< such as "as a solid of 3 levels from voxel 0.01"
+    std::string text() const; ///< such as "solid, 3 grid levels, finest voxel 0.01"
 };
 
 struct Baked {

@@ -24,8 +24,8 @@ Length::Length(const std::string& text) {
     }
     if (end == begin || !(value > 0.0))
         throw InputError(
-            fmt::format("takes a positive length, not '{}': write 0.2 (scene units), 10% (of the diagonal) or "
-                        "3vx (finest voxels)",
+            fmt::format("takes a positive length, not '{}': write 0.2 (scene units), 10% (of the diagonal), "
+                        "3vx (finest voxels) or inf",
                         text));
 }
 

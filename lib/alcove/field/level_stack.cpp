@@ -54,7 +54,7 @@ float LevelStack::map(const Vec3& p) const {
     if (const float outside = levels_->front().bounds().map(p); outside >= reach())
         return outside;
     // A distance beyond the band of a finer level is at least the end of that band; behind a sheet the coarser
-    // level may have less.
+    // level may return a smaller distance.
     for (std::size_t level = 1; level < levels_->size(); ++level) {
         const float coarser = (*levels_)[level].map(p);
         distance = distance > 0.0f ? std::max(coarser, nearest) : std::min(coarser, -nearest);

@@ -1,6 +1,7 @@
 #include "alcove/grid/voxelize.h"
 
 #include "alcove/base/detail/memory.h"
+#include "alcove/base/detail/messages.h"
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
 #include "alcove/grid/detail/clustered.h"
@@ -71,9 +72,9 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
 
     if (plan.voxel > 0.25f * options.grid.radius)
         stack.warnings.push_back(fmt::format(
-            "the voxel is {:.2g} of the radius, too coarse to resolve occlusion: use a voxel of {:.2g} % of "
+            "the voxel is {} times the radius, which is too coarse to resolve occlusion: use a voxel of {} % of "
             "the diagonal or less",
-            plan.voxel / options.grid.radius, 12.5 * options.grid.radius));
+            rounded(plan.voxel / options.grid.radius), rounded(12.5 * options.grid.radius)));
     // The shares of the time are rough.
     const auto done = [&](double share) {
         if (options.progress)

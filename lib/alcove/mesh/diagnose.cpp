@@ -248,23 +248,24 @@ std::vector<std::string> describe(const Diagnosis& d) {
     std::vector<std::string> lines;
     const auto say = [&](std::size_t count, std::string_view one, std::string_view many, std::string_view meaning) {
         if (count > 0)
-            lines.push_back(fmt::format("{} {}: {}", count, count == 1 ? one : many, meaning));
+            lines.push_back(fmt::format("{}: {}", counted(count, one, many), meaning));
     };
     if (d.components == 0)
         lines.push_back("no face spans a surface");
     else if (d.closed())
         lines.push_back(d.components == 1
                             ? "closed: inside and outside are known"
-                            : fmt::format("closed in {} parts: inside and outside are known", d.components));
+                            : fmt::format("closed in {} parts: inside and outside are known", grouped(d.components)));
     else if (d.open_edges > 0)
-        lines.push_back(fmt::format("not closed, {} open {} around {} {}: distances cannot distinguish inside from "
-                                    "outside; fill the holes for signed distances",
-                                    d.open_edges, d.open_edges == 1 ? "edge" : "edges", d.boundary_loops,
-                                    d.boundary_loops == 1 ? "hole or boundary" : "holes or boundaries"));
+        lines.push_back(fmt::format("not closed, {} around {}: distances cannot distinguish inside from outside; fill "
+                                    "the holes for signed distances",
+                                    counted(d.open_edges, "open edge", "open edges"),
+                                    counted(d.boundary_loops, "hole or boundary", "holes or boundaries")));
     else if (d.watertight())
         lines.push_back("without holes, but the faces are not oriented consistently");
     else
-        lines.push_back(fmt::format("not closed, walls end at other walls along {} edges", d.odd_edges));
+        lines.push_back(fmt::format("not closed: {} where a face ends on other faces",
+                                    counted(d.odd_edges, "edge", "edges")));
     say(d.flipped_edges, "flipped edge", "flipped edges",
         "neighbouring faces have opposite orientations and vertex normals cancel there; orient the faces "
         "consistently");
@@ -275,13 +276,13 @@ std::vector<std::string> describe(const Diagnosis& d) {
     say(d.non_manifold_vertices, "non-manifold vertex", "non-manifold vertices",
         "surfaces touch at a point; normals average both");
     say(d.seam_edges(), "seam edge", "seam edges",
-        "closed if coincident vertices are merged; area-weighted normals are discontinuous there, provide "
+        "closed if coincident vertices are merged; area-weighted normals are discontinuous there; provide "
         "normals or merge the vertices");
     say(d.degenerate_faces, "face without area", "faces without area", "they are ignored");
     say(d.duplicate_faces, "duplicate face", "duplicate faces", "remove them: they may swap inside and outside");
     say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "they have no normal and get ao = 1");
-    say(d.non_finite_vertices, "vertex that is not finite", "vertices that are not finite",
-        "left out with their faces, which leaves holes; fix the coordinates");
+    say(d.non_finite_vertices, "vertex with non-finite coordinates", "vertices with non-finite coordinates",
+        "ignored, with their faces");
     return lines;
 }
 

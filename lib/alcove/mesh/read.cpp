@@ -35,6 +35,10 @@ const Format& format_of(const FileBytes& file) {
         return off;
     if (extension == ".stl")
         return stl;
+    if (extension == ".toml")
+        file.fail("is a scene: render it");
+    if (extension == ".vdb")
+        file.fail("is a grid, not a mesh");
     if (extension == ".obj" || begins_as_obj(file))
         return obj;
     file.fail("is not a mesh in a known format; PLY, OBJ, OFF and STL can be read");

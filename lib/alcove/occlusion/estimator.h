@@ -33,7 +33,7 @@
 
 namespace alcove {
 
-/// Up to `capacity` surfels that are close in space, as structure of arrays: the unit of work of an estimator.
+/// Up to `capacity` surfels that are close in space, as a structure of arrays: the unit of work of an estimator.
 struct SurfelBatch {
     static constexpr std::size_t capacity = 64;
     using Values = std::array<float, capacity>;

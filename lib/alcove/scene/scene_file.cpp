@@ -56,7 +56,7 @@ Material material_of(TomlTable& table, const Materials& materials) {
     const std::string name = *table.text("material");
     const auto found = materials.find(name);
     if (found == materials.end())
-        table.fail("material", fmt::format("is the unknown name {0}: add [material.{0}]", name));
+        table.fail("material", fmt::format("{0} is not defined: add [material.{0}]", name));
     return found->second;
 }
 

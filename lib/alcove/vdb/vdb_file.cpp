@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
 
@@ -69,8 +71,10 @@ class FloatGridReader : public io::Archive {
 /// Reads all float grids of a file. The stream's state reveals a truncated file, which OpenVDB does not report.
 std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file))
-        refuse(file, "cannot be opened for reading: check the name");
+    if (!stream)
+        refuse(file, fmt::format("cannot be opened: {}; check the name", std::strerror(errno)));
+    if (std::filesystem::is_directory(file))
+        refuse(file, "is a folder; name a .vdb file in it");
     check_vdb_structure(file);
     try {
         openvdb::initialize();
@@ -157,7 +161,7 @@ double number(const FloatGrid& grid, const char* name) {
     return meta ? meta->value() : std::nan("");
 }
 
-/// Whether alcove wrote the grid, also before there were checksums.
+/// Whether alcove wrote the grid, including versions that wrote no checksums.
 bool is_ours(const FloatGrid& grid) {
     return grid[checksum_name] || (grid.getCreator() == creator && number(grid, "alcove:diagonal") > 0.0);
 }
@@ -205,7 +209,7 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
-        if (!(*grid)[checksum_name] && stack.sign == Sign::solid) // the values of sheets jump where the sign ends
+        if (!(*grid)[checksum_name] && stack.sign == Sign::solid) // values of a sheet jump where its negative layer ends
             check_outliers(grid, file, stack.warnings);
         LevelSet level = level_of(grid, stack, file);
         const double voxel = number(*grid, "alcove:voxel");

@@ -120,6 +120,8 @@ std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const 
         cause = thin_walls_warning(target, occluders);
     if (cause.empty())
         cause = contact_warning(target, occluders.rays());
+    if (cause.empty() && task.error) // the caller says that the error is missed
+        return warnings;
     if (cause.empty())
         cause = method.samples_are == SampleKind::rays
                     ? "use more --rays, or leave out --method to let the planner choose"
@@ -153,7 +155,7 @@ std::string coarse_faces_warning(const BakeTarget& target, std::span<const float
     }
     if (large_area < 0.1 * all_area || large_area <= 0.0)
         return {};
-    // Points of equal area share, placed within each triangle by an additive recurrence (Roberts 2018).
+    // Points that each represent an equal share of the area, placed within each triangle by an additive recurrence (Roberts 2018).
     std::vector<Surfel> points;
     std::vector<float> interpolated;
     double next = 0.5, before = 0.0;

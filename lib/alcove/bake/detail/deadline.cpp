@@ -30,8 +30,9 @@ void Deadline::check(double seconds, const Remedy& remedy) const {
         return;
     const std::string instead = remedy(cautious * left() / seconds);
     throw TimeLimitError(fmt::format(
-        "this takes about {:g} s more, but --time-limit leaves {:.2g} s: {}allow {:g} s more", rounded_up(seconds),
-        left(), instead.empty() ? "" : "use " + instead + ", or ", rounded_up(clearly_late * seconds)));
+        "the rest takes about {:g} s, but --time-limit leaves {:.2g} s: {}raise --time-limit by {:g} s",
+        rounded_up(seconds), left(), instead.empty() ? "" : "use " + instead + ", or ",
+        rounded_up(clearly_late * seconds)));
 }
 
 double shared_seconds_of(const std::function<void()>& work) {

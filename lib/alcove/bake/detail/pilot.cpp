@@ -84,13 +84,20 @@ double Pilot::rmse_of_exact(int rays, std::uint32_t seed) const {
 int Pilot::rays_for(double error, std::uint32_t seed) const {
     // The error does not fall monotonically with the rays, so the result is a number that was tried.
     constexpr int max_attempts = 16;
-    int rays = 16, enough = most_rays;
+    // Rare rays that differ between runs leave a rest that no number of rays removes.
+    constexpr double clearly_more = 1.5, hardly_less = 0.93;
+    int rays = 16, enough = most_rays, last_rays = most_rays;
+    double last_rmse = 0.0;
     for (int attempt = 0; attempt < max_attempts && rays < enough; ++attempt) {
         const double rmse = rmse_of_exact(rays, seed);
         if (rmse <= error)
             enough = rays;
-        if (rmse <= error && rmse > 0.85 * error)
+        const bool is_close = rmse <= error && rmse > 0.85 * error;
+        const bool is_futile = rmse > error && rays > clearly_more * last_rays && rmse > hardly_less * last_rmse;
+        if (is_close || is_futile)
             break;
+        last_rays = rays;
+        last_rmse = rmse;
         const double factor = std::pow(std::max(rmse, 0.1 * error) / (0.96 * error), 1.0 / ray_exponent);
         rays = static_cast<int>(std::clamp(std::ceil(rays * factor), 1.0, double(most_rays)));
     }

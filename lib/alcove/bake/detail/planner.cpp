@@ -164,7 +164,7 @@ Plan Planner::expected() const {
                                          : "guided missed the error with as many rays as exact needs");
     if (!best && candidates_.empty())
         throw LimitError("no grid for the named method fits in memory: leave out --method, or use --via mesh");
-    if (!best) // the method that was named does not hold the error: the most exact of its candidates
+    if (!best) // the named method cannot meet the error: take its most accurate candidate
         best = &*std::min_element(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
             return a.tried != b.tried ? b.tried : a.plan.rmse < b.plan.rmse;
         });
@@ -184,7 +184,7 @@ Plan Planner::next() const {
     const auto found = std::find_if(candidates_.begin(), candidates_.end(), is_planned);
     if (found != candidates_.end())
         return fewer_rays_before(cheap_trial_before(*found)).plan;
-    // Exact rays: where they are an equal choice, something cheaper may hold the error too.
+    // Exact rays: if other methods are allowed, a cheaper one may also meet the error.
     return avoids_exact_ || fallback_.empty() ? planned : fewer_rays_before(cheap_trial_before(fallback_.front())).plan;
 }
 

@@ -12,8 +12,8 @@ namespace alcove {
 std::string GridSummary::text() const {
     if (levels == 0)
         return "on the mesh itself";
-    return fmt::format("as a {} of {} level{} from voxel {:.4g}{}", sign == Sign::solid ? "solid" : "sheet", levels,
-                       levels == 1 ? "" : "s", voxel, clustered ? ", clustered to half of it" : "");
+    return fmt::format("{}, {} grid level{}, finest voxel {:.4g}{}", sign == Sign::solid ? "solid" : "sheet", levels,
+                       levels == 1 ? "" : "s", voxel, clustered ? ", vertices within half a voxel clustered" : "");
 }
 
 GridSummary summary_of(const GridStack& stack) {

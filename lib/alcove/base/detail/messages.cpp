@@ -1,6 +1,9 @@
 #include "alcove/base/detail/messages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace alcove {
 
@@ -23,6 +26,20 @@ std::string grouped(std::size_t count) {
     for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
         digits.insert(static_cast<std::size_t>(at), 1, ',');
     return digits;
+}
+
+std::string rounded(double number) {
+    constexpr double readable = 1e15;
+    if (!(number > 0.0 && number < readable))
+        return fmt::format("{:.3g}", number);
+    const int after_point = 2 - static_cast<int>(std::floor(std::log10(number)));
+    if (after_point <= 0) {
+        const double unit = std::pow(10.0, -after_point);
+        return grouped(static_cast<std::size_t>(std::round(number / unit) * unit));
+    }
+    std::string digits = fmt::format("{:.{}f}", number, after_point);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    return digits.ends_with('.') ? digits.substr(0, digits.size() - 1) : digits;
 }
 
 std::string counted(std::size_t count, std::string_view singular, std::string_view plural) {

@@ -99,7 +99,7 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
     }
     if (normals_)
         for (std::size_t voxel = 0; voxel < brick_volume; ++voxel)
-            if (float& distance = brick.values[voxel]; distance < sheet_thickness) { // all are positive yet
+            if (float& distance = brick.values[voxel]; distance < sheet_thickness) { // all are still positive
                 const auto i = static_cast<int>(voxel);
                 const Index3 p = stride * (block.low + Index3(i / (brick_size * brick_size),
                                                               i / brick_size % brick_size, i % brick_size));

@@ -1,5 +1,6 @@
 #include "alcove/grid/detail/plan.h"
 
+#include "alcove/base/detail/messages.h"
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
 
@@ -76,9 +77,9 @@ struct Estimate {
 };
 
 std::string too_many(std::size_t triangles, double bytes, const GridOptions& options) {
-    return fmt::format("a grid of {} triangles needs {:.2g} GB or more, over the limit of {:.2g} GB: use "
-                       "fewer triangles, or bake with --method exact, which needs no grid",
-                       triangles, bytes / 1e9, options.memory_limit / 1e9);
+    return fmt::format("a grid of {} triangles needs {} GB or more, over the limit of {} GB: use fewer triangles, or "
+                       "bake with --method exact, which needs no grid",
+                       grouped(triangles), rounded(bytes / 1e9), rounded(options.memory_limit / 1e9));
 }
 
 }
@@ -122,10 +123,10 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
     if (!std::isfinite(finest))
         throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));
     if (options.voxel > 0.0f && options.voxel < finest)
-        throw LimitError(fmt::format("a voxel of {:.3g} % of the diagonal needs about {:.1f} GB, over the limit "
-                                     "of {:.1f} GB: use --voxel {}% or more, or --voxel auto",
-                                     100.0 * options.voxel, estimate.bytes(options.voxel) / 1e9,
-                                     options.memory_limit / 1e9, std::ceil(1e4 * finest) / 100.0));
+        throw LimitError(fmt::format("a voxel of {} % of the diagonal needs about {} GB, over the limit of {} GB: use "
+                                     "--voxel {}% or more, or --voxel auto",
+                                     rounded(100.0 * options.voxel), rounded(estimate.bytes(options.voxel) / 1e9),
+                                     rounded(options.memory_limit / 1e9), std::ceil(1e4 * finest) / 100.0));
     LevelPlan plan;
     plan.outer_band = std::max(options.outer_band, min_outer_band);
     plan.inner_band = std::max(options.inner_band, min_inner_band);

@@ -72,7 +72,7 @@ FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
     }
     bytes_[size_] = '\0';
     if (size_ == 0)
-        fail("is empty; export it again");
+        fail(file.extension() == ".toml" ? "is empty" : "is empty; export it again");
 }
 
 FileBytes::FileBytes(const std::filesystem::path& file, std::string_view bytes)

@@ -22,8 +22,8 @@ struct Inverted {
 };
 
 /// thickness = min(radius, distance from p along −n to the next surface), sphere-traced with one ray (Hart 1996).
-/// In a solid the ray starts at most half a voxel deep, so thinner walls are accurate to that. Behind a sheet it
-/// starts 1.9 voxels deep and misses anything nearer. Cost: 4–20 map() calls per surfel.
+/// In a solid the ray starts at most half a voxel deep, so the thickness of thinner walls is wrong by at most
+/// that. Behind a sheet it starts 1.9 voxels deep and misses anything nearer. Cost: 4–20 map() calls per surfel.
 struct Thickness {
     float radius = 0.1f; ///< largest thickness, > 0; may be infinite
 

@@ -363,8 +363,8 @@ void check_grid(Header& header, bool has_offsets) {
 
 void check_vdb_structure(const std::filesystem::path& file) {
     Header header(file);
-    if (header.number<std::int64_t>() != magic)
-        return;
+    if (header.left() < sizeof(magic) || header.number<std::int64_t>() != magic)
+        header.fail("is not a .vdb file", "check the name");
     if (header.number<std::uint32_t>() < oldest_version)
         header.fail("was written by a version of OpenVDB before 2013", "write it again with a newer one");
     header.skip(2 * sizeof(std::uint32_t)); // the library's version

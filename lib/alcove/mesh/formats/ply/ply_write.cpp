@@ -130,7 +130,7 @@ class ElementWriter {
 
 std::string header_comments(const PlyDocument& document, const Mesh& mesh) {
     std::vector<std::string> lines = document.comments;
-    // The comments of an earlier run on values that this one replaces are no longer true.
+    // Comments about values that this run replaces are no longer true.
     for (const std::string& comment : mesh.added_comments)
         std::erase_if(lines, [&](const std::string& line) {
             return line.starts_with("comment " + comment.substr(0, comment.find(' ') + 1));
