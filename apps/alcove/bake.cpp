@@ -117,7 +117,7 @@ class BakeJob {
         seconds_["pilot"] = baked.seconds.pilot;
         if (verb_.strict && baked.missed())
             throw std::runtime_error(
-                fmt::format("{}: misses the error of {:g}: the measured RMSE is {:.2g}, and nothing is written",
+                fmt::format("{}: misses the error target of {:g}: the measured RMSE is {:.2g}, and nothing is written",
                             file_.input, *baked.target, *baked.rmse));
         watch.lap();
         write(baked);
@@ -220,7 +220,7 @@ void run(BakeVerb& verb) {
     for (const std::string& occluder : verb.occluders) {
         verb.bake.occluders.push_back(read_mesh(occluder));
         for (const std::string& warning : verb.bake.occluders.back().warnings)
-            print_warnings({occluder + ": " + warning}, verb.common);
+            print_warnings({fmt::format("{}: {}", occluder, warning)}, verb.common);
     }
     run_batch(files, verb.common,
               [&](const BatchFile& file, const BakeProgress& progress) { BakeJob(verb, file).run(progress); });

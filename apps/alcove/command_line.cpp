@@ -6,8 +6,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
-#include <regex>
 
 namespace alcove::cli {
 namespace {
@@ -66,16 +66,17 @@ std::string explain_conversion(const CLI::App& verb, const std::string& said) {
                        said.substr(equals + 3));
 }
 
-/// Rephrases a message of CLI11 such as "--frames: Value 0 not in range 1 to 100000", and of our own validators, such as
-/// "--voxel: takes ...".
+/// Rephrases a message of CLI11 such as "--frames: Value 0 not in range 1 to 100000", and of our own validators, such
+/// as "--voxel: takes ...".
 std::string explain_value(const std::string& option, const std::string& said) {
-    static const std::regex out_of_range(": Value (.*) not in range (.*) to (.*)");
+    constexpr std::string_view begin = ": Value ", between = " not in range ", to = " to ";
     const std::string rest = said.substr(option.size());
-    std::smatch parts;
-    if (std::regex_match(rest, parts, out_of_range))
-        return fmt::format("{} takes a number from {:g} to {:g}, not {}", option, std::stod(parts[2]),
-                           std::stod(parts[3]), parts[1].str());
-    return option + rest.substr(std::min<std::size_t>(1, rest.size()));
+    const std::size_t least = rest.rfind(between), most = rest.rfind(to);
+    if (!rest.starts_with(begin) || least == std::string::npos || most < least + between.size())
+        return option + rest.substr(std::min<std::size_t>(1, rest.size()));
+    return fmt::format("{} takes a number from {:g} to {:g}, not {}", option,
+                       std::atof(rest.c_str() + least + between.size()), std::atof(rest.c_str() + most + to.size()),
+                       rest.substr(begin.size(), least - begin.size()));
 }
 
 std::string replaced(std::string text, const std::string& part, const std::string& by) {

@@ -85,8 +85,7 @@ void end_cleanly() {
 void limit_time(double seconds) {
     time_limit.emplace(Clock::now(), seconds);
     std::snprintf(time_limit_message.data(), time_limit_message.size(),
-                  "stopped after the %g s of --time-limit: allow more, or request less work",
-                  seconds);
+                  "stopped after the %g s of --time-limit: allow more, or request less work", seconds);
     handle(SIGALRM, on_alarm);
     const double whole = std::floor(seconds);
     itimerval timer{};

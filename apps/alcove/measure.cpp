@@ -236,8 +236,8 @@ void print(const std::vector<Measurement>& measurements) {
                        "radius", "voxel", "rmse", "bias", "ao sd", "CPU s");
         mesh = m.mesh;
         fmt::print("{:>22} {:>8.4g} {:>8} {:>8.4f} {:>+8.4f} {:>8.4f} {:>10.4g}\n", m.label(), m.radius,
-                   m.voxel > 0.0 ? fmt::format("{:.4g}", m.voxel) : "-", m.error.rmse, m.error.bias,
-                   m.error.deviation, m.seconds());
+                   m.voxel > 0.0 ? fmt::format("{:.4g}", m.voxel) : "-", m.error.rmse, m.error.bias, m.error.deviation,
+                   m.seconds());
     }
 }
 

@@ -177,8 +177,8 @@ class RenderJob {
         if (options_.frames)
             drawn = fmt::format("wrote {} of {} frames, {}{}", frames_.size(), *options_.frames, drawn,
                                 frames_.size() > 1 ? " to " + frames_.back().file : "");
-        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}{}\n", drawn, scene_.size.width,
-                   scene_.size.height, name_of_method(scene_, built), radius_of(built),
+        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}{}\n", drawn, scene_.size.width, scene_.size.height,
+                   name_of_method(scene_, built), radius_of(built),
                    built.voxel > 0.0 ? fmt::format(", voxel {:.4g}", built.voxel) : "");
     }
 

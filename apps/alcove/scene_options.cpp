@@ -105,8 +105,9 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     verb.add_flag("--no-ground", request.no_ground, "Leave out the plane through the lowest point");
     verb.add_flag("--no-shadow", request.no_shadow, "Sunlight casts no shadows");
     add_grid_options(verb, request.voxel, request.sign);
-    add_choice<std::optional<bool>>(verb, "--normals", request.own_normals, {{"field", false}, {"mesh", true}},
-                                    "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
+    add_choice<std::optional<bool>>(
+        verb, "--normals", request.own_normals, {{"field", false}, {"mesh", true}},
+        "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
         ->type_name("NAME")
         ->default_str("mesh");
 }

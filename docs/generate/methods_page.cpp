@@ -5,6 +5,7 @@
 #include "row.h"
 #include "words.h"
 
+#include "alcove/bake/detail/error_figures.h"
 #include "alcove/render/camera.h"
 #include "alcove/render/detail/painted.h"
 #include "alcove/render/renderer.h"
@@ -117,18 +118,25 @@ class Scan : public Scene {
 std::string parameters_of(const Method& method) {
     std::string text;
     for (const ParameterInfo& p : method.parameters())
-        text += fmt::format("{}`{}={}`{} {}", text.empty() ? "" : "; ", p.name,
+        text += fmt::format("{}`{}={}`{}: {}", text.empty() ? "" : "; ", p.name,
                             p.flag ? (p.standard != 0.0 ? "true" : "false") : fmt::format("{:.6g}", p.standard),
                             p.unit.empty() ? "" : fmt::format(" {}", p.unit), p.summary);
     return text.empty() ? "none" : text;
 }
 
+std::string cost_of(const Method& method) {
+    std::string text(method.cost);
+    constexpr std::string_view call = "map()";
+    if (const std::size_t at = text.find(call); at != std::string::npos)
+        text.replace(at, call.size(), "`map()`");
+    return text;
+}
+
 std::string section_of(const Method& method) {
-    return fmt::format(
-        "## {0}\n\n{1}.\n\n    {2}\n\nSource: {3}. Cost in `map()` calls per point: {4}. Parameters: {5}."
-        "\n\n![{0}](images/methods/{0}.png)\n\nGood: {6}. Bad: {7}.\n\n{8}\n\n",
-        method.name, method.summary, method.formula, method.source, method.cost, parameters_of(method), method.good,
-        method.bad, image_remarks.at(method.name));
+    return fmt::format("## {0}\n\n{1}.\n\n    {2}\n\nSource: {3}. Cost: {4}. Parameters: {5}."
+                       "\n\n![{0}](images/methods/{0}.png)\n\nGood: {6}. Bad: {7}.\n\n{8}\n\n",
+                       method.name, method.summary, method.formula, method.source, cost_of(method),
+                       parameters_of(method), method.good, method.bad, image_remarks.at(method.name));
 }
 
 void write_page(const std::filesystem::path& meshes, const std::filesystem::path& docs) {
@@ -161,7 +169,7 @@ void write_page(const std::filesystem::path& meshes, const std::filesystem::path
         }
         std::cerr << method.name << cells << "\n";
         write_png(row_of(tiles), images / fmt::format("{}.png", method.name), Pass::ao);
-        table += fmt::format("| [{0}](#{0}) |{1} {2} |\n", method.name, cells, method.cost);
+        table += fmt::format("| [{0}](#{0}) |{1} {2} |\n", method.name, cells, cost_of(method));
         sections += section_of(method);
     }
     write_text(docs / "methods.md", std::string(page_head) + std::string(table_head) + table + "\n" + sections);

@@ -27,7 +27,7 @@ inline constexpr std::string_view table_head =
 1,024 per vertex of the scans. In parentheses are the bias and, after the semicolon, the standard deviation of the
 reference values, which is the RMSE of the best constant guess:
 
-| method | reference scene | ChineseDragon-10kv | armadillo | `map()` calls per point |
+| method | reference scene | ChineseDragon-10kv | armadillo | cost |
 | --- | --- | --- | --- | --- |
 )";
 
@@ -57,7 +57,7 @@ inline const std::map<std::string_view, std::string_view> image_remarks{
     {"hemisphere_random", "The factor 5 makes everything white except the narrowest creases, which it makes black: "
                           "a line drawing rather than shading. The facets on the ball come from directions that are "
                           "fixed in world axes; another seed gives other facets."},
-    {"fibonacci", "The whole image is grey, 0.62 to 0.73 in the open: over a plane, the sum of 3 d is too small, and "
+    {"fibonacci", "The whole image is grey, 0.62 to 0.73 in the open: above a plane, the sum of 3 d is too small, and "
                   "the factor 6 of the formula does not make up for it. The contrast is low, because probes end at a "
                   "tenth of the scene's unit. To get a mask, divide by the open value."},
     {"traced", "The remaining grain comes from 64 rays; more rays smooth it. The scans are a little too bright in "

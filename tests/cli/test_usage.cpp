@@ -115,6 +115,18 @@ TEST_F(Program, RefusesBadNumbersAndWordsBeforeItReadsAnything) {
         {"--progress", "loud"}};
     for (const auto& option : wrong)
         expect_refusal({"bake", "none.ply", "-o", "b.ply", option[0], option[1]}, usage, {option[0], option[1]});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--error", "1%"}, usage, {"--error takes a number, not '1%'"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--seed", "-1"}, usage,
+                   {"--seed takes a whole number from 0 to 4294967295, not '-1'"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--tessellate", "3vx"}, usage,
+                   {"--tessellate takes auto, 0.2", "not '3vx'"});
+    expect_refusal({"bake", "none.vdb", "-o", "b.ply", "--adaptivity", "2"}, usage,
+                   {"--adaptivity takes a number from 0 to 1, not 2"});
+    expect_refusal({"render", "none.ply", "-o", "b.png", "--pixel-samples", "0"}, usage,
+                   {"--pixel-samples takes a number from 1 to 1024, not 0"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--rays", "9"}, usage, {"--rays needs --method"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--error", "0.1", "--quality", "fine"}, usage,
+                   {"--error", "--quality", "cannot be combined"});
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--method", "classic", "--samples", "-3"}, usage,
                    {"samples of classic", "-3"});
     expect_refusal({"voxelize", "none.ply", "-o", "b.vdb", "--band", "1"}, usage, {"--band", "1"});

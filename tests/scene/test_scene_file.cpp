@@ -208,7 +208,8 @@ TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
     expect_refusal("[material.red]\ncolor = \"red\"\n", {":2:", "red, green and blue"});
     expect_refusal("[material.a]\nreflection = 2\n", {":2:", "from 0 to 1"});
     expect_refusal("material = [1]\n", {":1:", "table"});
-    expect_refusal(std::string(ball) + "material = \"clay\"\n", {":3:", "material clay is not defined", "add [material.clay]"});
+    expect_refusal(std::string(ball) + "material = \"clay\"\n",
+                   {":3:", "material clay is not defined", "add [material.clay]"});
     expect_refusal(std::string(ball) + "radius = -1\n", {":3:", "above 0"});
     expect_refusal(std::string(ball) + "scale = nan\n", {":3:", "finite"});
     expect_refusal("object = 1\n", {":1:", "[[object]]"});

@@ -74,7 +74,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         stack.warnings.push_back(fmt::format(
             "the voxel is {} times the radius, which is too coarse to resolve occlusion: use a voxel of {} % of "
             "the diagonal or less",
-            rounded(plan.voxel / options.grid.radius), rounded(12.5 * options.grid.radius)));
+            rounded(plan.voxel / options.grid.radius, 2), rounded(12.5 * options.grid.radius, 2)));
     // The shares of the time are rough.
     const auto done = [&](double share) {
         if (options.progress)

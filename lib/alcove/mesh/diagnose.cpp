@@ -1,6 +1,7 @@
 #include "alcove/mesh/diagnose.h"
 
 #include "alcove/base/detail/memory.h"
+#include "alcove/base/detail/messages.h"
 #include "alcove/mesh/detail/edge_table.h"
 #include "alcove/mesh/detail/weld.h"
 #include "alcove/mesh/normals.h"
@@ -264,8 +265,8 @@ std::vector<std::string> describe(const Diagnosis& d) {
     else if (d.watertight())
         lines.push_back("without holes, but the faces are not oriented consistently");
     else
-        lines.push_back(fmt::format("not closed: {} where a face ends on other faces",
-                                    counted(d.odd_edges, "edge", "edges")));
+        lines.push_back(
+            fmt::format("not closed: {} where a face ends on other faces", counted(d.odd_edges, "edge", "edges")));
     say(d.flipped_edges, "flipped edge", "flipped edges",
         "neighbouring faces have opposite orientations and vertex normals cancel there; orient the faces "
         "consistently");

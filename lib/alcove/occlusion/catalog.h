@@ -45,7 +45,7 @@ struct MethodInfo {
     std::string_view summary;
     std::string_view formula;
     std::string_view source;
-    std::string_view cost; ///< map() calls per surfel
+    std::string_view cost; ///< map() calls and rays per point, in words
     std::string_view good, bad;
     std::vector<ParameterInfo> (*parameters)();
     SampleKind samples_are; ///< kind of samples its sample-count parameter counts

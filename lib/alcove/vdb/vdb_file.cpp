@@ -209,7 +209,8 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     const auto sign = finest.getMetadata<openvdb::StringMetadata>("alcove:sign");
     stack.sign = sign && sign->value() == "sheet" ? Sign::sheet : Sign::solid;
     for (const FloatGrid::Ptr& grid : grids) {
-        if (!(*grid)[checksum_name] && stack.sign == Sign::solid) // values of a sheet jump where its negative layer ends
+        // The values of a sheet jump where its negative layer ends.
+        if (!(*grid)[checksum_name] && stack.sign == Sign::solid)
             check_outliers(grid, file, stack.warnings);
         LevelSet level = level_of(grid, stack, file);
         const double voxel = number(*grid, "alcove:voxel");

@@ -155,7 +155,8 @@ std::string coarse_faces_warning(const BakeTarget& target, std::span<const float
     }
     if (large_area < 0.1 * all_area || large_area <= 0.0)
         return {};
-    // Points that each represent an equal share of the area, placed within each triangle by an additive recurrence (Roberts 2018).
+    // Points that each represent an equal share of the area, placed within each triangle by an additive recurrence
+    // (Roberts 2018).
     std::vector<Surfel> points;
     std::vector<float> interpolated;
     double next = 0.5, before = 0.0;

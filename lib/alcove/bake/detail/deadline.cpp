@@ -29,10 +29,10 @@ void Deadline::check(double seconds, const Remedy& remedy) const {
     if (!is_set() || seconds <= clearly_late * left())
         return;
     const std::string instead = remedy(cautious * left() / seconds);
-    throw TimeLimitError(fmt::format(
-        "the rest takes about {:g} s, but --time-limit leaves {:.2g} s: {}raise --time-limit by {:g} s",
-        rounded_up(seconds), left(), instead.empty() ? "" : "use " + instead + ", or ",
-        rounded_up(clearly_late * seconds)));
+    throw TimeLimitError(
+        fmt::format("the rest takes about {:g} s, but --time-limit leaves {:.2g} s: {}raise --time-limit by {:g} s",
+                    rounded_up(seconds), left(), instead.empty() ? "" : "use " + instead + ", or ",
+                    rounded_up(clearly_late * seconds)));
 }
 
 double shared_seconds_of(const std::function<void()>& work) {

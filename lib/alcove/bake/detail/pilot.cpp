@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace alcove {
 namespace {
@@ -71,6 +72,22 @@ double Pilot::rmse(std::span<const float> ao) const {
     for (const std::uint32_t i : indices_)
         own.push_back(ao[i]);
     return rmse_of_own(own);
+}
+
+std::optional<double> Pilot::rmse(std::span<const float> ao, std::span<const std::uint32_t> of) const {
+    std::unordered_map<std::uint32_t, std::size_t> place;
+    for (std::size_t i = 0; i < of.size(); ++i)
+        place.emplace(of[i], i);
+    std::vector<float> own, reference;
+    for (std::size_t i = 0; i < indices_.size(); ++i)
+        if (const auto found = place.find(indices_[i]); found != place.end()) {
+            own.push_back(ao[found->second]);
+            reference.push_back(reference_[i]);
+        }
+    if (own.empty())
+        return {};
+    const double rmse = compare(own, reference).rmse;
+    return without(rmse * rmse, noise2_);
 }
 
 double Pilot::rmse_of(const Method& method, const Occluders& occluders, const Settings& settings) const {

@@ -4,6 +4,7 @@
 #include "alcove/occlusion/catalog.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Pilot {
     double difficulty() const { return difficulty_; }
     /// The RMSE of the ao of all surfels that the constructor got, in their order.
     double rmse(std::span<const float> ao) const;
+    /// The same for some of the surfels: `of` has the index of each value's surfel. Nothing if none is the pilot's.
+    std::optional<double> rmse(std::span<const float> ao, std::span<const std::uint32_t> of) const;
     /// The RMSE of a method that evaluates each surfel independently; `settings` include the radius. Cost: the method
     /// at the sampled surfels.
     double rmse_of(const Method& method, const Occluders& occluders, const Settings& settings) const;

@@ -161,7 +161,7 @@ Plan Planner::expected() const {
     };
     if (!best && !fallback_.empty())
         return exact(candidates_.empty() ? "no grid fits in memory"
-                                         : "guided missed the error with as many rays as exact needs");
+                                         : "guided missed the error target with as many rays as exact needs");
     if (!best && candidates_.empty())
         throw LimitError("no grid for the named method fits in memory: leave out --method, or use --via mesh");
     if (!best) // the named method cannot meet the error: take its most accurate candidate

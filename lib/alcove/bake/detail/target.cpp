@@ -7,6 +7,7 @@
 #include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
 #include "alcove/grid/detail/plan.h"
+#include "alcove/occlusion/detail/subset.h"
 
 #include <fmt/format.h>
 
@@ -168,6 +169,33 @@ class TargetBake {
         measure_error(pilot_beside(choice.rays()));
     }
 
+    /// The error of a plan of the field on an eighth of many surfels, so that a plan that misses costs little. They are
+    /// runs along the Morton curve, since neighbours share rays. Nothing for few surfels, or if there is no such grid.
+    std::optional<double> rmse_on_sample(const Plan& plan, bool has_grid) {
+        constexpr std::size_t many_surfels = 100'000, runs = 64, stride = 8;
+        if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
+            return {};
+        if (sample_.empty()) {
+            const std::vector<std::uint32_t> order = spatial_order(target_.surfels);
+            const std::size_t length = order.size() / (runs * stride);
+            for (std::size_t run = 0; run < runs; ++run) {
+                const auto begin = order.begin() + static_cast<std::ptrdiff_t>(run * order.size() / runs);
+                sample_.insert(sample_.end(), begin, begin + static_cast<std::ptrdiff_t>(length));
+            }
+        }
+        try {
+            const float voxel = has_grid ? GridOptions{}.largest_voxel : plan.largest_voxel;
+            const Occluders occluders = occluders_.get(needs_of(*plan.choice.method, Channel::ao), voxel);
+            Stopwatch watch;
+            const std::vector<float> ao = evaluate(pick(target_.surfels, sample_), occluders, *plan.choice.method,
+                                                   settings_of(plan.choice), Channel::ao)[Channel::ao];
+            result_.seconds.occlusion += watch.lap();
+            return pilot_->rmse(ao, sample_);
+        } catch (const LimitError&) { // the bake itself finds out
+            return {};
+        }
+    }
+
     void bake_by_plan() {
         const SurfaceSize size = surface_size(target_.mesh, target_.triangles);
         const Pilot& pilot = this->pilot(pilot_for(*task_.error));
@@ -189,6 +217,10 @@ class TargetBake {
         for (;;) {
             check_time(task_.deadline, planner.expected(), request, pilot);
             const Plan plan = planner.next();
+            if (const std::optional<double> rmse = rmse_on_sample(plan, has_grid); rmse && *rmse > *task_.error) {
+                planner.update(plan, *rmse);
+                continue;
+            }
             try {
                 evaluate_with(plan.choice, settings_of(plan.choice),
                               has_grid ? GridOptions{}.largest_voxel : plan.largest_voxel);
@@ -269,6 +301,7 @@ class TargetBake {
     const BakeProgress& progress_;
     TargetOccluders occluders_;
     std::optional<Pilot> pilot_;
+    std::vector<std::uint32_t> sample_; // see rmse_on_sample()
     TargetResult result_;
     float last_voxel_ = GridOptions{}.largest_voxel;
 };

@@ -28,18 +28,18 @@ std::string grouped(std::size_t count) {
     return digits;
 }
 
-std::string rounded(double number) {
-    constexpr double readable = 1e15;
-    if (!(number > 0.0 && number < readable))
-        return fmt::format("{:.3g}", number);
-    const int after_point = 2 - static_cast<int>(std::floor(std::log10(number)));
+std::string rounded(double number, int digits) {
+    constexpr double largest = 1e15;
+    if (!(number > 1.0 / largest && number < largest))
+        return fmt::format("{:.{}g}", number, digits);
+    const int after_point = digits - 1 - static_cast<int>(std::floor(std::log10(number)));
     if (after_point <= 0) {
         const double unit = std::pow(10.0, -after_point);
         return grouped(static_cast<std::size_t>(std::round(number / unit) * unit));
     }
-    std::string digits = fmt::format("{:.{}f}", number, after_point);
-    digits.erase(digits.find_last_not_of('0') + 1);
-    return digits.ends_with('.') ? digits.substr(0, digits.size() - 1) : digits;
+    std::string text = fmt::format("{:.{}f}", number, after_point);
+    text.erase(text.find_last_not_of('0') + 1);
+    return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
 }
 
 std::string counted(std::size_t count, std::string_view singular, std::string_view plural) {

@@ -16,8 +16,9 @@ std::string in_one_line(std::string text);
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t count);
 
-/// A positive number to three significant digits, without an exponent up to 1e15: "0.0000123", "4.3", "52,900,000".
-std::string rounded(double number);
+/// A positive number to some significant digits, from 1e-15 to 1e15 without an exponent: "0.0000123", "4.3",
+/// "53,000,000".
+std::string rounded(double number, int digits);
 
 /// "1 vertex", "1,234 vertices".
 std::string counted(std::size_t count, std::string_view singular, std::string_view plural);

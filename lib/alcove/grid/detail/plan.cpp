@@ -79,7 +79,7 @@ struct Estimate {
 std::string too_many(std::size_t triangles, double bytes, const GridOptions& options) {
     return fmt::format("a grid of {} triangles needs {} GB or more, over the limit of {} GB: use fewer triangles, or "
                        "bake with --method exact, which needs no grid",
-                       grouped(triangles), rounded(bytes / 1e9), rounded(options.memory_limit / 1e9));
+                       grouped(triangles), rounded(bytes / 1e9, 2), rounded(options.memory_limit / 1e9, 2));
 }
 
 }
@@ -125,8 +125,8 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
     if (options.voxel > 0.0f && options.voxel < finest)
         throw LimitError(fmt::format("a voxel of {} % of the diagonal needs about {} GB, over the limit of {} GB: use "
                                      "--voxel {}% or more, or --voxel auto",
-                                     rounded(100.0 * options.voxel), rounded(estimate.bytes(options.voxel) / 1e9),
-                                     rounded(options.memory_limit / 1e9), std::ceil(1e4 * finest) / 100.0));
+                                     rounded(100.0 * options.voxel, 3), rounded(estimate.bytes(options.voxel) / 1e9, 2),
+                                     rounded(options.memory_limit / 1e9, 2), std::ceil(1e4 * finest) / 100.0));
     LevelPlan plan;
     plan.outer_band = std::max(options.outer_band, min_outer_band);
     plan.inner_band = std::max(options.inner_band, min_inner_band);

@@ -24,13 +24,14 @@ struct Calibrated {
     static constexpr std::string_view formula =
         "clamp(1 + N(x) - N(0)), x = cos t - d(p + h w_t)/h for each probe, N a fitted 16-8-1 network";
     static constexpr std::string_view source = "fitted to exact rays: see docs/calibrated.md";
-    static constexpr std::string_view cost = "24, or 10 for samples below 24";
+    static constexpr std::string_view cost = "24 map() calls per point, or 10 if samples is below 24";
     static constexpr std::string_view good = "closest to exact rays for so few probes; no noise; exact on planes";
     static constexpr std::string_view bad =
         "no bound on its error: reliable only on shapes like those it was fitted to; weak in wide cavities";
 
     static constexpr auto parameters() {
-        return std::array{parameter<&Calibrated::samples>("samples", 10, 24, "probes", "at most: 10 or 24 are used")};
+        return std::array{parameter<&Calibrated::samples>("samples", 10, 24, "probes",
+                                                          "maximum number of probes; 10 or 24 are used")};
     }
 
     template <Field F>

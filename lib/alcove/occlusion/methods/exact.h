@@ -27,15 +27,15 @@ struct Exact {
     static constexpr std::string_view summary = "cosine-weighted rays against the mesh itself: the reference";
     static constexpr std::string_view formula = "1/N sum V(w_i)";
     static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
-    static constexpr std::string_view cost = "0, plus rays (64) on the mesh";
+    static constexpr std::string_view cost = "0 map() calls per point, and 64 rays on the mesh";
     static constexpr std::string_view good = "the reference itself: no grid, no bias, any radius; gives bent normals";
-    static constexpr std::string_view bad = "noise of 1/rays^0.75; needs the mesh; slow on dense meshes";
+    static constexpr std::string_view bad = "noise proportional to 1/rays^0.75; needs the mesh; slow on dense meshes";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Exact::rays>("rays", 1, 1 << 20, "rays", "in the hemisphere"),
+            parameter<&Exact::rays>("rays", 1, 1 << 20, "rays", "number of rays in the hemisphere"),
             parameter<&Exact::seed>("seed", 0, 0xffffffffu, "", "random seed of the directions"),
         };
     }

@@ -36,8 +36,8 @@ struct Guided {
     static constexpr std::string_view formula = "a + max(0, 1 - 2 sigma^2/s^2) (v - a), v = 1/N sum V(w_i), "
                                                 "a = m + mean of neighbouring v - m, m fitted";
     static constexpr std::string_view source = "after Hoerl and Kennard (1970), Buades et al. (2005)";
-    static constexpr std::string_view cost = "10, plus rays (3) on the mesh";
-    static constexpr std::string_view good = "as accurate as exact with ten times as many rays";
+    static constexpr std::string_view cost = "10 map() calls and 3 rays on the mesh per point";
+    static constexpr std::string_view good = "as accurate as exact, with a tenth of the rays";
     static constexpr std::string_view bad =
         "smooths detail that neither probes nor neighbours show; needs both the mesh and a grid";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite
@@ -45,7 +45,7 @@ struct Guided {
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Guided::rays>("rays", 1, 1 << 20, "rays", "in the hemisphere"),
+            parameter<&Guided::rays>("rays", 1, 1 << 20, "rays", "number of rays in the hemisphere"),
             parameter<&Guided::seed>("seed", 0, 0xffffffffu, "", "random seed of the directions"),
         };
     }

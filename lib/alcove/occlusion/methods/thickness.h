@@ -31,7 +31,7 @@ struct Thickness {
     static constexpr std::string_view summary = "one ray along the reversed normal to the far side";
     static constexpr std::string_view formula = "min(radius, distance from p along -n to the next surface)";
     static constexpr std::string_view source = "sphere tracing: J. C. Hart (1996)";
-    static constexpr std::string_view cost = "4-20";
+    static constexpr std::string_view cost = "4-20 map() calls per point";
     static constexpr std::string_view good = "accurate to a voxel on plates and solids";
     static constexpr std::string_view bad = "on open surfaces it measures the distance to whatever is behind";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite

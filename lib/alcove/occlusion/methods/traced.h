@@ -66,17 +66,17 @@ struct Traced {
     static constexpr std::string_view summary = "sphere-traced rays over the hemisphere, cosine-weighted";
     static constexpr std::string_view formula = "1/N sum V(w_i)";
     static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
-    static constexpr std::string_view cost = "1-6 + rays (64) x 5-20";
+    static constexpr std::string_view cost = "1-6 map() calls per point, and 5-20 for each of 64 rays";
     static constexpr std::string_view good =
         "converges to exact rays with more rays and finer voxels; needs no mesh; gives bent normals";
     static constexpr std::string_view bad =
-        "the slowest method on grids; noise of 1/rays^0.75; blurs detail below a voxel";
+        "the slowest method on grids; noise proportional to 1/rays^0.75; blurs detail below a voxel";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Traced::rays>("rays", 1, 1 << 20, "rays", "in the hemisphere"),
+            parameter<&Traced::rays>("rays", 1, 1 << 20, "rays", "number of rays in the hemisphere"),
             parameter<&Traced::cosine_weighted>("cosine_weighted", 0, 1, "",
                                                 "more rays near the normal instead of uniform directions"),
             parameter<&Traced::seed>("seed", 0, 0xffffffffu, "", "random seed of the directions"),

@@ -21,10 +21,10 @@ struct MarchSteps {
     int max_steps = 128; ///< >= 2
 
     static constexpr std::string_view name = "march_steps";
-    static constexpr std::string_view summary = "number of steps of the camera ray: a measure of its cost only";
+    static constexpr std::string_view summary = "number of steps of the camera ray; it measures only cost";
     static constexpr std::string_view formula = "1 - steps/(max_steps - 1)";
     static constexpr std::string_view source = "A. Zucconi, Volumetric Rendering: Ambient Occlusion";
-    static constexpr std::string_view cost = "0 in addition to those of the image";
+    static constexpr std::string_view cost = "no map() calls in addition to those of the image";
     static constexpr std::string_view good = "free; hints at creases and outlines";
     static constexpr std::string_view bad =
         "not occlusion: depends on the eye, and flat ground darkens toward the horizon";
@@ -32,8 +32,8 @@ struct MarchSteps {
     static constexpr double bytes_per_pixel = sizeof(float);
 
     static constexpr auto parameters() {
-        return std::array{
-            parameter<&MarchSteps::max_steps>("max_steps", 2, 4096, "steps", "at which a pixel is black")};
+        return std::array{parameter<&MarchSteps::max_steps>("max_steps", 2, 4096, "steps",
+                                                            "number of steps that makes a pixel black")};
     }
 
     std::vector<float> operator()(const Renderable& renderable, const Camera& camera) const;

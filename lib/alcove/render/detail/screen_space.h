@@ -43,7 +43,7 @@ struct ScreenSpace {
     static constexpr std::string_view formula =
         "1 - 1/N sum [depth at the pixel of q_i < depth of q_i < that + radius], q_i = p + r_i dir_i";
     static constexpr std::string_view source = "04 Ambient Occlusion, lecture notes";
-    static constexpr std::string_view cost = "0 in addition to those of the image";
+    static constexpr std::string_view cost = "no map() calls in addition to those of the image";
     static constexpr std::string_view good = "time depends on the number of pixels only";
     static constexpr std::string_view bad =
         "misses occluders that the camera does not see: outside the image or hidden";
@@ -53,10 +53,11 @@ struct ScreenSpace {
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&ScreenSpace::samples>("samples", 1, 4096, "samples", "in the hemisphere"),
-            parameter<&ScreenSpace::bias>("bias", 0.0, 60.0, "degrees", "above the tangent plane, excluded"),
+            parameter<&ScreenSpace::samples>("samples", 1, 4096, "samples", "number of samples in the hemisphere"),
+            parameter<&ScreenSpace::bias>("bias", 0.0, 60.0, "degrees",
+                                          "directions closer than this to the tangent plane are excluded"),
             parameter<&ScreenSpace::blur>("blur", 0, 2, "", "0 none, 1 Gaussian, 2 bilateral"),
-            parameter<&ScreenSpace::blur_reach>("blur_reach", 0.0, 1.0, "radii", "that the blur covers"),
+            parameter<&ScreenSpace::blur_reach>("blur_reach", 0.0, 1.0, "radii", "reach of the blur"),
         };
     }
 

@@ -28,11 +28,12 @@ struct Classic {
 
     static constexpr std::string_view name = "classic";
     static constexpr std::string_view summary =
-        "weighted probes along the normal, each measuring how much nearer the surface is than over a plane";
+        "weighted probes along the normal, each measuring how much nearer the surface is than above a plane";
     static constexpr std::string_view formula =
         "clamp(1 - k sum w_i (h_i - d(p + h_i n))), k = 3, w_i = 0.95^i, h_i = 0.01 + 0.12 i/4, i = 0..4";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost = "samples (5); twice that with convexity; 4 more with bent_normal";
+    static constexpr std::string_view cost =
+        "5 map() calls (samples) per point; twice as many with convexity, 4 more with bent_normal";
     static constexpr std::string_view good =
         "fast and smooth; exact on planes and convex shapes; gives convexity and rough bent normals";
     static constexpr std::string_view bad =
@@ -42,7 +43,7 @@ struct Classic {
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Classic::samples>("samples", 2, 1 << 20, "probes", "along the normal"),
+            parameter<&Classic::samples>("samples", 2, 1 << 20, "probes", "number of probes along the normal"),
             parameter<&Classic::strength>("strength", 0, 100, "", "k of the formula"),
             parameter<&Classic::falloff>("falloff", 0.01, 1, "", "ratio of consecutive weights with five probes"),
         };

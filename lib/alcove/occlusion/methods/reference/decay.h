@@ -1,4 +1,4 @@
-/// Distances along the normal relative to those over a plane.
+/// Distances along the normal relative to those above a plane.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
@@ -18,17 +18,17 @@ struct Decay {
 
     static constexpr std::string_view name = "decay";
     static constexpr std::string_view summary =
-        "distances along the normal relative to those over a plane, with halving or equal weights";
+        "distances along the normal relative to those above a plane, with halving or equal weights";
     static constexpr std::string_view formula = "sum w_i d(p + h_i n) / sum w_i h_i, w_i = 2^-i (linear: 1), "
                                                 "h_i = (i + 1) radius/m, i = 0..m-1, m = 5";
     static constexpr std::string_view source = "A. Zucconi, Volumetric Rendering: Ambient Occlusion";
-    static constexpr std::string_view cost = "samples (5)";
+    static constexpr std::string_view cost = "5 map() calls (samples) per point";
     static constexpr std::string_view good = "fast and smooth; exact on planes and convex shapes; no constant to tune";
     static constexpr std::string_view bad = "too bright in wide corners, blind to occluders at the side";
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Decay::samples>("samples", 1, 1 << 20, "probes", "along the normal"),
+            parameter<&Decay::samples>("samples", 1, 1 << 20, "probes", "number of probes along the normal"),
             parameter<&Decay::linear>("linear", 0, 1, "", "all probes have the same weight"),
         };
     }

@@ -21,7 +21,7 @@ struct Exponential {
     static constexpr std::string_view formula =
         "factor (1 - sum 2^(-h s) (h - d(p + h n))), h = 1/s, 2/s, ... < 1, s = 5";
     static constexpr std::string_view source = "G. Geer, Normally Sampled Ambient Occlusion";
-    static constexpr std::string_view cost = "samples (5) - 1";
+    static constexpr std::string_view cost = "4 map() calls (samples - 1) per point";
     static constexpr std::string_view good = "fast and smooth; exact on planes and convex shapes";
     static constexpr std::string_view bad = "too bright: a closed crevice keeps two thirds of its light";
     static constexpr float reference_radius = 1.0f;
@@ -29,7 +29,7 @@ struct Exponential {
     static constexpr auto parameters() {
         return std::array{
             parameter<&Exponential::samples>("samples", 2, 1 << 20, "steps",
-                                             "up to the radius, of which the last is not probed"),
+                                             "number of steps up to the radius; the last is not probed"),
             parameter<&Exponential::factor>("factor", 0, 1, "", "ao of an open plane"),
         };
     }

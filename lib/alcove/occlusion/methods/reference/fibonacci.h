@@ -25,15 +25,15 @@ struct Fibonacci {
     static constexpr std::string_view formula = "clamp(6/n sum clamp(3 d(p + 0.01 n + 0.1 hash(i) w_i))), "
                                                 "w_i on a Fibonacci sphere, i = 0..n-1, n = 32";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost = "samples (32)";
+    static constexpr std::string_view cost = "32 map() calls (samples) per point";
     static constexpr std::string_view good = "sees occluders at the side; evenly spread directions";
-    static constexpr std::string_view bad =
-        "0.62-0.73 on an open plane: too dark everywhere; patterns depend on the orientation of the scene";
+    static constexpr std::string_view bad = "gives 0.62-0.73 instead of 1 on an open plane: too dark everywhere; "
+                                            "patterns depend on the orientation of the scene";
     static constexpr float reference_radius = 0.11f;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Fibonacci::samples>("samples", 1, 1 << 20, "probes", "in the hemisphere"),
+            parameter<&Fibonacci::samples>("samples", 1, 1 << 20, "probes", "number of probes in the hemisphere"),
             parameter<&Fibonacci::surfel_frame>("surfel_frame", 0, 1, "",
                                                 "directions rotate with the normal instead of following world axes"),
         };

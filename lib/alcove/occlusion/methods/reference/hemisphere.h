@@ -29,15 +29,15 @@ struct Hemisphere {
                                                 "l_i = hash(i), w_i = normalize(n + (1 - 1/n) v_i), "
                                                 "v_i random, i = 0..n-1, n = 32";
     static constexpr std::string_view source = "Hemispherical Signed Distance Field Ambient Occlusion";
-    static constexpr std::string_view cost = "samples (32)";
+    static constexpr std::string_view cost = "32 map() calls (samples) per point";
     static constexpr std::string_view good = "sees occluders at the side; little self-occlusion";
     static constexpr std::string_view bad =
-        "0.90-0.95 on an open plane; low contrast; patterns depend on the orientation of the scene";
+        "gives 0.90-0.95 instead of 1 on an open plane; low contrast; patterns depend on the orientation of the scene";
     static constexpr float reference_radius = 1.0f;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Hemisphere::samples>("samples", 1, 1 << 20, "probes", "in the hemisphere"),
+            parameter<&Hemisphere::samples>("samples", 1, 1 << 20, "probes", "number of probes in the hemisphere"),
             parameter<&Hemisphere::falloff>("falloff", 0, 100, "", "strength of the occlusion"),
             parameter<&Hemisphere::surfel_frame>("surfel_frame", 0, 1, "",
                                                  "directions rotate with the normal instead of following world axes"),

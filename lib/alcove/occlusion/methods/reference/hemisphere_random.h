@@ -25,14 +25,16 @@ struct HemisphereRandom {
     static constexpr std::string_view formula = "clamp(1/n sum clamp(5 d(p + h_i w_i)/h_i, -1, 1)), h_i = "
                                                 "0.01 + 4 (i/(n-1))^2, i = 0..n-1, n = 32, w_i random";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost = "samples (32)";
+    static constexpr std::string_view cost = "32 map() calls (samples) per point";
     static constexpr std::string_view good = "sees occluders at the side; fine creases and large shapes together";
-    static constexpr std::string_view bad = "0.6-1 on an open plane; patterns depend on the orientation of the scene";
+    static constexpr std::string_view bad =
+        "gives 0.6-1 instead of 1 on an open plane; patterns depend on the orientation of the scene";
     static constexpr float reference_radius = 4.01f;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&HemisphereRandom::samples>("samples", 2, 1 << 20, "probes", "in the hemisphere"),
+            parameter<&HemisphereRandom::samples>("samples", 2, 1 << 20, "probes",
+                                                  "number of probes in the hemisphere"),
             parameter<&HemisphereRandom::surfel_frame>(
                 "surfel_frame", 0, 1, "", "directions rotate with the normal instead of following world axes"),
             parameter<&HemisphereRandom::seed>("seed", 0, 0xffffffffu, "", "random seed of the directions"),

@@ -28,13 +28,13 @@ struct Jittered {
         "falloff form: clamp(1 - 1/n sum (l_i - max(d, 0)) falloff), l_i = hash(i), i = 0..n-1";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026); "
                                                "Hemispherical Signed Distance Field Ambient Occlusion";
-    static constexpr std::string_view cost = "samples (6)";
+    static constexpr std::string_view cost = "6 map() calls (samples) per point";
     static constexpr std::string_view good = "fast and smooth; exact on planes and convex shapes";
     static constexpr std::string_view bad = "too bright: a closed crevice keeps almost half of its light";
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Jittered::samples>("samples", 1, 1 << 20, "probes", "along the normal"),
+            parameter<&Jittered::samples>("samples", 1, 1 << 20, "probes", "number of probes along the normal"),
             parameter<&Jittered::falloff_form>("falloff_form", 0, 1, "", "use the second formula"),
             parameter<&Jittered::falloff>("falloff", 0, 100, "", "factor of the second formula"),
         };

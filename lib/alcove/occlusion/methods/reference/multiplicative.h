@@ -20,14 +20,14 @@ struct Multiplicative {
     static constexpr std::string_view formula =
         "product of 1 - max(0, (h_i - d(p + h_i n)) 0.2/h_i), h_i = 0.1 (i + 1), i = 0..5";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost = "samples (6)";
+    static constexpr std::string_view cost = "6 map() calls (samples) per point";
     static constexpr std::string_view good = "fast and smooth; never fully black; exact on planes and convex shapes";
     static constexpr std::string_view bad = "too bright: a closed crevice keeps a quarter of its light";
     static constexpr float reference_radius = 0.6f;
 
     static constexpr auto parameters() {
         return std::array{
-            parameter<&Multiplicative::samples>("samples", 1, 1 << 20, "probes", "along the normal"),
+            parameter<&Multiplicative::samples>("samples", 1, 1 << 20, "probes", "number of probes along the normal"),
             parameter<&Multiplicative::strength>("strength", 0, 1, "",
                                                  "share of the light removed by a probe on the surface"),
         };

@@ -22,7 +22,7 @@ struct Multiscale {
     static constexpr std::string_view formula =
         "max(0.035, (prod clamp(d(p + h_j n)/h_j))^0.3), h_j = 0.1 2^j, j = 0..6; short: j <= 3";
     static constexpr std::string_view source = "SDF Ambient Occlusion - Detailed Reference (2026)";
-    static constexpr std::string_view cost = "7";
+    static constexpr std::string_view cost = "7 map() calls per point";
     static constexpr std::string_view good =
         "fine detail and large shapes in one pass; exact on planes and convex shapes";
     static constexpr std::string_view bad = "stylised rather than accurate: darkens early, and its radius means little";
