@@ -1,6 +1,6 @@
 #include "meshes.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/read.h"
 
 #include <algorithm>

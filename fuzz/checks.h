@@ -1,7 +1,7 @@
 /// Checks of invariants that any input must meet. A violation aborts the program, so that any driver detects it.
 #pragma once
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <algorithm>
 #include <cstdint>

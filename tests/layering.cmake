@@ -179,6 +179,15 @@ foreach(header IN LISTS headers)
     endif()
 endforeach()
 
+# The public face stays small.
+set(max_public_headers 25)
+file(GLOB headers RELATIVE ${TREE}/lib ${TREE}/lib/alcove/alcove.h ${TREE}/lib/alcove/*/*.h)
+list(FILTER headers EXCLUDE REGEX "^alcove/(nearest|measure)/")
+list(LENGTH headers count)
+if(count GREATER max_public_headers)
+    string(APPEND failures "${count} public headers, at most ${max_public_headers} are allowed\n")
+endif()
+
 if(failures)
     message(NOTICE "${failures}")
     message(FATAL_ERROR "Some includes break the rules.")

@@ -7,8 +7,8 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/mesh/detail/tessellate.h"
 #include "alcove/mesh/read.h"
-#include "alcove/mesh/tessellate.h"
 #include "alcove/vdb/vdb_file.h"
 
 #include <fmt/format.h>

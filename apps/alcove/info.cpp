@@ -2,12 +2,12 @@
 #include "options.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/mesh/read.h"
 #include "alcove/render/image.h"
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 #include "alcove/vdb/vdb_file.h"
 
 #include <fmt/format.h>

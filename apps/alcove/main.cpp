@@ -4,7 +4,7 @@
 #include "options.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

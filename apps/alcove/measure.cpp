@@ -3,8 +3,8 @@
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/measure/report.h"
 #include "alcove/mesh/read.h"
 

@@ -1,7 +1,7 @@
 #include "measured_results.h"
 
 #include "alcove/base/detail/atomic_file.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 
 #include "progress.h"
 
-#include "alcove/base/errors.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/occlusion/catalog.h"

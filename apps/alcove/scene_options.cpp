@@ -1,6 +1,6 @@
 #include "scene_options.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/render/detail/image_method.h"
 #include "alcove/render/image.h"
 #include "alcove/scene/scene.h"

@@ -1,7 +1,7 @@
 /// Shared by the programs that write the pages of docs/.
 #pragma once
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <exception>
 #include <filesystem>

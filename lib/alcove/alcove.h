@@ -12,7 +12,6 @@
 /// alcove/bake/openmesh.h.
 #pragma once
 
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 
@@ -20,7 +19,6 @@
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/read.h"
-#include "alcove/mesh/tessellate.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/mesh/write.h"
 

@@ -1,7 +1,7 @@
 // Bakes every mesh of the archive, compares the output with the input and prints a line for each.
 #include "off_oracle.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/formats/ply/ply_document.h"

@@ -1,7 +1,7 @@
 /// bake(), add() and check().
 #include "alcove/bake/bake.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/measure/measure.h"
 #include "alcove/mesh/triangulate.h"
 #include "real_mesh.h"

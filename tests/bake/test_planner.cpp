@@ -1,7 +1,7 @@
 #include "alcove/bake/detail/planner.h"
 
 #include "alcove/bake/detail/plan_table.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/measure/measure.h"

@@ -1,6 +1,6 @@
 #include "extreme.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

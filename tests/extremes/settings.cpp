@@ -2,7 +2,7 @@
 #include "extreme.h"
 #include "shapes.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "alcove/bake/bake.h"
 #include "alcove/bake/detail/pilot.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 /// Compares every voxel of level sets with brute force, closed forms and another voxelizer.
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"

@@ -1,7 +1,7 @@
 #include "alcove/grid/voxelize.h"
 
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/mesh/diagnose.h"

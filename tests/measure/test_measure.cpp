@@ -1,6 +1,6 @@
 #include "alcove/measure/measure.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/measure/detail/heat_map.h"
 
 #include "shapes.h"

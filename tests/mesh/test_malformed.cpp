@@ -1,6 +1,6 @@
 #include "scratch_files.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "damages.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
 
 #include <gtest/gtest.h>

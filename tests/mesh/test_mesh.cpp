@@ -1,6 +1,6 @@
 #include "alcove/mesh/mesh.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <gtest/gtest.h>
 

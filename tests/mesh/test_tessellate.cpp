@@ -1,8 +1,8 @@
-#include "alcove/mesh/tessellate.h"
+#include "alcove/mesh/detail/tessellate.h"
 
 #include "solids.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/triangulate.h"
 

@@ -1,4 +1,4 @@
-#include "alcove/mesh/tessellate.h"
+#include "alcove/mesh/detail/tessellate.h"
 
 #include "solids.h"
 

@@ -1,6 +1,6 @@
 #include "scratch_files.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

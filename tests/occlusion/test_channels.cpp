@@ -1,5 +1,5 @@
 /// The cost of channels, and that requesting more of them changes none.
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/occlusion/catalog.h"
 #include "alcove/occlusion/methods/reference/classic.h"

@@ -1,6 +1,6 @@
 #include "alcove/occlusion/estimator.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/occlusion/catalog.h"
 

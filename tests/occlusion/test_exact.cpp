@@ -3,7 +3,7 @@
 #include "alcove/field/detail/trace.h"
 #include "alcove/occlusion/methods/exact.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/normals.h"
 #include "exact_distance.h"
 #include "real_mesh.h"

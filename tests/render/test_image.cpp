@@ -1,6 +1,6 @@
 #include "alcove/render/image.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "scratch_folder.h"
 
 #include <OpenEXR/ImfChannelList.h>

@@ -1,7 +1,7 @@
 #include "alcove/render/renderer.h"
 
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "exact_subject.h"
 #include "scratch_folder.h"

@@ -1,4 +1,4 @@
-#include "alcove/render/shading.h"
+#include "alcove/render/renderer.h"
 
 #include "alcove/base/parallel.h"
 #include "alcove/field/primitives.h"

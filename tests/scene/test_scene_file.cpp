@@ -1,6 +1,6 @@
 #include "scene_text.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 namespace alcove::test {
 namespace {

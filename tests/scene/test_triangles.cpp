@@ -1,7 +1,7 @@
 /// Rendering with triangles: mesh normals, painted values, exact rays.
 #include "scene_text.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/write.h"
 #include "alcove/scene/scene.h"
 #include "shapes.h"

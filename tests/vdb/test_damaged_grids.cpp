@@ -1,6 +1,6 @@
 #include "alcove/vdb/vdb_file.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"

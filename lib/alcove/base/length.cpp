@@ -1,7 +1,5 @@
 #include "alcove/base/types.h"
 
-#include "alcove/base/errors.h"
-
 #include <fmt/format.h>
 
 #include <cmath>

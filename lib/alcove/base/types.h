@@ -17,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 namespace alcove {
@@ -86,6 +87,7 @@ class EnumSet {
     unsigned bits_ = 0;
 };
 
+/// A length as people write it: `0.2` scene units, `10%` of the diagonal, `3vx` finest voxels, `inf`.
 struct Length {
     enum class Unit { scene, diagonal, voxels };
     double value = 0.0;
@@ -100,6 +102,29 @@ struct Length {
     /// In unit space, where the diagonal is 1. \throw InputError for voxels where `voxel` (unit space) is 0,
     /// and for lengths that make no sense with that diagonal.
     float to_unit(double diagonal, float voxel = 0.0f) const;
+};
+
+// The exceptions thrown at the boundaries of the library. Each message is one line that names the file, the place in it
+// and the fix.
+
+/// The input is invalid: a damaged file, a mesh without faces, a grid of another type.
+struct InputError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A file could not be opened, read or written, though its contents are not at fault.
+struct IoError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The request would clearly exceed the time limit.
+struct TimeLimitError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The request is valid but too large: it exceeds the memory or the index range.
+struct LimitError : std::runtime_error {
+    using std::runtime_error::runtime_error;
 };
 
 }

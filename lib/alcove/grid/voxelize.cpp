@@ -2,8 +2,8 @@
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/clustered.h"
 #include "alcove/grid/detail/duplicate_faces.h"
 #include "alcove/grid/detail/level_set.h"

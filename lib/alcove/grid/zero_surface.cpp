@@ -1,6 +1,6 @@
 #include "alcove/grid/voxelize.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/triangulate.h"

@@ -1,7 +1,7 @@
 #include "alcove/measure/measure.h"
 
 #include "alcove/base/detail/memory.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/detail/bricks.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/measure/detail/counting_field.h"

@@ -1,7 +1,7 @@
 #include "alcove/mesh/normals.h"
 
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 
 #include <algorithm>
 #include <cmath>

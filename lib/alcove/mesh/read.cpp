@@ -1,7 +1,7 @@
 #include "alcove/mesh/read.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
 
 #include <algorithm>

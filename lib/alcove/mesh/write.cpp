@@ -1,7 +1,7 @@
 #include "alcove/mesh/write.h"
 
 #include "alcove/base/detail/atomic_file.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "alcove/occlusion/catalog.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "alcove/occlusion/occluders.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/detail/trace.h"
 #include "alcove/occlusion/detail/triangle_pairs.h"
 

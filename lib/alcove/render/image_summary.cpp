@@ -1,4 +1,4 @@
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/render/image.h"
 
 #include <OpenEXR/ImfChannelList.h>

@@ -1,7 +1,7 @@
 #include "alcove/base/detail/atomic_file.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/render/image.h"
-#include "alcove/render/shading.h"
+#include "alcove/render/renderer.h"
 
 #include <png.h>
 

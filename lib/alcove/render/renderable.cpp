@@ -1,6 +1,6 @@
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "alcove/render/detail/image_method.h"
 #include "alcove/scene/scene.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/scene/detail/shape_fields.h"
 #include "alcove/scene/detail/support.h"

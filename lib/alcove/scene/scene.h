@@ -6,9 +6,8 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/occlusion/catalog.h"
 #include "alcove/render/camera.h"
-#include "alcove/render/shading.h"
-
 #include "alcove/render/renderer.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>

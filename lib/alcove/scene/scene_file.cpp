@@ -2,7 +2,7 @@
 #include "alcove/scene/scene.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/formats/file_bytes.h"
 #include "alcove/scene/detail/toml_depth.h"
 #include "alcove/scene/detail/toml_table.h"

@@ -2,8 +2,8 @@
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/vdb/detail/checksum.h"

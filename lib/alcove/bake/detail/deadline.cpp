@@ -1,7 +1,7 @@
 #include "alcove/bake/detail/deadline.h"
 
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "alcove/bake/detail/options.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "alcove/bake/detail/planner.h"
 
 #include "alcove/bake/detail/plan_table.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/occlusion/methods/exact.h"
 
@@ -169,7 +169,7 @@ Plan Planner::expected() const {
             return a.tried != b.tried ? b.tried : a.plan.rmse < b.plan.rmse;
         });
     if (avoids_exact_ && !fallback_.empty() && best->plan.largest_voxel > 0.0f) {
-        const double field = best->plan.seconds, rays = fallback_.front().plan.seconds;
+        const double field = spent_ + best->plan.seconds, rays = fallback_.front().plan.seconds;
         if (field > allowed_ratio * rays && field > rays + allowed_seconds)
             return exact(fmt::format("the field would cost about {:.2g} s, exact rays {:.2g} s", field, rays));
     }
@@ -237,12 +237,15 @@ const Planner::Candidate& Planner::fewer_rays_before(const Candidate& planned) c
     return *trial;
 }
 
-void Planner::update(const Plan& tried, double rmse) {
+void Planner::update(const Plan& tried, double rmse, double share) {
     const auto is_tried = [&](const Candidate& candidate) {
         return candidate.plan.choice == tried.choice && candidate.plan.largest_voxel == tried.largest_voxel;
     };
     const auto found = std::find_if(candidates_.begin(), candidates_.end(), is_tried);
     const bool is_bound = found != candidates_.end() && found->is_bound;
+    if (found != candidates_.end())
+        spent_ += found->grid_seconds + found->tree_seconds +
+                  share * (found->plan.seconds - found->grid_seconds - found->tree_seconds);
     const double correction = rmse / std::max(tried.rmse, 1e-9);
     for (Candidate& candidate : candidates_) {
         Plan& plan = candidate.plan;

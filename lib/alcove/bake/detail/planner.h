@@ -55,7 +55,8 @@ class Planner {
     /// Whether no untried plan remains after this one.
     bool is_last(const Plan& plan) const;
     /// Takes the measured error of a plan into account. If it exceeds the wanted error, next() returns another plan.
-    void update(const Plan& tried, double rmse);
+    /// `share` is that of the surfels the plan was tried on.
+    void update(const Plan& tried, double rmse, double share = 1.0);
     /// Removes all plans with this grid, because it does not fit in memory.
     void leave_out(float largest_voxel);
 
@@ -75,6 +76,7 @@ class Planner {
     bool is_known(const Method* method) const; // whether one of its candidates was tried
 
     double error_;
+    double spent_ = 0.0; ///< predicted seconds of what was tried in vain
     bool avoids_exact_;
     std::vector<Candidate> candidates_; // methods that use the field
     std::vector<Candidate> fallback_;   // exact, if allowed; with Via::grid a last resort

@@ -1,6 +1,6 @@
 #include "alcove/bake/detail/surroundings.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/mesh/detail/clip.h"

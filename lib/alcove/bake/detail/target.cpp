@@ -4,8 +4,8 @@
 #include "alcove/bake/detail/causes.h"
 #include "alcove/bake/detail/planner.h"
 #include "alcove/bake/detail/target_occluders.h"
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/occlusion/detail/subset.h"
 
@@ -169,10 +169,13 @@ class TargetBake {
         measure_error(pilot_beside(choice.rays()));
     }
 
+    static constexpr std::size_t sample_stride = 8;
+    static constexpr double sample_tolerance = 1.08; // errors of a sample are right to a tenth
+
     /// The error of a plan of the field on an eighth of many surfels, so that a plan that misses costs little. They are
     /// runs along the Morton curve, since neighbours share rays. Nothing for few surfels, or if there is no such grid.
     std::optional<double> rmse_on_sample(const Plan& plan, bool has_grid) {
-        constexpr std::size_t many_surfels = 100'000, runs = 64, stride = 8;
+        constexpr std::size_t many_surfels = 100'000, runs = 16, stride = sample_stride;
         if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
             return {};
         if (sample_.empty()) {
@@ -217,8 +220,9 @@ class TargetBake {
         for (;;) {
             check_time(task_.deadline, planner.expected(), request, pilot);
             const Plan plan = planner.next();
-            if (const std::optional<double> rmse = rmse_on_sample(plan, has_grid); rmse && *rmse > *task_.error) {
-                planner.update(plan, *rmse);
+            if (const std::optional<double> rmse = rmse_on_sample(plan, has_grid);
+                rmse && *rmse > sample_tolerance * *task_.error) {
+                planner.update(plan, *rmse, 1.0 / sample_stride);
                 continue;
             }
             try {

@@ -1,7 +1,7 @@
 #include "alcove/bake/detail/target_occluders.h"
 #include "alcove/base/detail/stopwatch.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

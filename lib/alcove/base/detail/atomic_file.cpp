@@ -1,6 +1,6 @@
 #include "alcove/base/detail/atomic_file.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

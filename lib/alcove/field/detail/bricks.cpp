@@ -1,7 +1,7 @@
 #include "alcove/field/detail/bricks.h"
 
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
 
 #include <algorithm>

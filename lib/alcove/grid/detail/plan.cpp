@@ -1,8 +1,8 @@
 #include "alcove/grid/detail/plan.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
 #include "alcove/base/parallel.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "alcove/mesh/detail/adaptive_cuts.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/normals.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "alcove/mesh/detail/bisection.h"
-#include "alcove/mesh/tessellate.h"
+#include "alcove/mesh/detail/tessellate.h"
 
 namespace alcove {
 

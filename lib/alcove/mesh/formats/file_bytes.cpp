@@ -2,7 +2,7 @@
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -4,7 +4,7 @@
 #include "alcove/field/detail/trace.h"
 #include "alcove/render/camera.h"
 #include "alcove/render/detail/cones.h"
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 
 #include <span>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "alcove/render/camera.h"
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 
 #include <vector>
 

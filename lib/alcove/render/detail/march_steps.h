@@ -3,7 +3,7 @@
 
 #include "alcove/occlusion/detail/parameter.h"
 #include "alcove/render/camera.h"
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 
 #include <array>
 #include <string_view>

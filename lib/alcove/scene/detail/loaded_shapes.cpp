@@ -1,10 +1,10 @@
 #include "alcove/scene/detail/loaded_shapes.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 #include "alcove/scene/detail/support.h"
 #include "alcove/vdb/vdb_file.h"
 

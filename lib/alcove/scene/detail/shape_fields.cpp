@@ -1,6 +1,6 @@
 #include "alcove/scene/detail/shape_fields.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/detail/blend.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"

@@ -1,6 +1,6 @@
 #include "alcove/scene/detail/toml_depth.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "alcove/base/detail/edit_distance.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "alcove/scene/detail/triangles.h"
 
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"

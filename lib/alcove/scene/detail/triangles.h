@@ -1,7 +1,7 @@
 /// The triangles of a scene, for mesh normals, painted values and exact rays.
 #pragma once
 
-#include "alcove/render/renderable.h"
+#include "alcove/render/renderer.h"
 #include "alcove/scene/detail/loaded_shapes.h"
 
 namespace alcove {

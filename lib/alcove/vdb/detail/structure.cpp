@@ -1,7 +1,7 @@
 #include "alcove/vdb/detail/structure.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 
 #include <fmt/format.h>
 #include <zlib.h>

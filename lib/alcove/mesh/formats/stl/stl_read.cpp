@@ -1,6 +1,6 @@
 // Format: 3D Systems (1988). Its facets share no vertices.
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/detail/weld.h"
 #include "alcove/mesh/formats/byte_reader.h"
 #include "alcove/mesh/formats/formats.h"

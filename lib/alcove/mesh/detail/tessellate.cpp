@@ -1,7 +1,7 @@
-#include "alcove/mesh/tessellate.h"
+#include "alcove/mesh/detail/tessellate.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/errors.h"
+#include "alcove/base/types.h"
 #include "alcove/mesh/detail/adaptive_cuts.h"
 #include "alcove/mesh/detail/bisection.h"
 #include "alcove/mesh/detail/interpolated_document.h"
