@@ -218,7 +218,8 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
 
 namespace {
 
-Settings settings_of(const MethodChoice& choice, float radius, std::vector<std::pair<std::string, double>> parameters) {
+Settings settings_of(const MethodChoice& choice, float radius,
+                     const std::vector<std::pair<std::string, double>>& parameters) {
     Settings settings = choice.method ? choice.settings(radius) : Settings{.radius = radius};
     settings.parameters.insert(settings.parameters.end(), parameters.begin(), parameters.end());
     return settings;

@@ -257,7 +257,9 @@ class TargetBake {
             double rmse = std::numeric_limits<double>::infinity();
         } best;
         best.choice = choose(method);
-        for (float voxel = coarsest; voxel >= coarsest / 4.0f; voxel /= 2.0f) {
+        constexpr int max_halvings = 2;
+        for (int halvings = 0; halvings <= max_halvings; ++halvings) {
+            const float voxel = std::ldexp(coarsest, -halvings);
             const double coarser = best.rmse;
             Occluders occluders = occluders_.rays();
             try {
