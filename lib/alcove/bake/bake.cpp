@@ -191,6 +191,24 @@ bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
 
 }
 
+double rmse_of(Quality quality) {
+    switch (quality) {
+    case Quality::draft:
+        return 0.05;
+    case Quality::good:
+        return 0.02;
+    default:
+        return 0.005;
+    }
+}
+
+std::string GridSummary::text() const {
+    if (levels == 0)
+        return "on the mesh itself";
+    return fmt::format("{}, {} grid level{}, finest voxel {:.4g}{}", sign == Sign::solid ? "solid" : "sheet", levels,
+                       levels == 1 ? "" : "s", voxel, clustered ? ", vertices within half a voxel clustered" : "");
+}
+
 Baked bake(const Mesh& mesh, const BakeOptions& options) {
     return bake_surfels(mesh, options, "vertices", options.self,
                         [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); });

@@ -26,17 +26,6 @@ const Method& named_method(const BakeOptions& options) {
 
 }
 
-double rmse_of(Quality quality) {
-    switch (quality) {
-    case Quality::draft:
-        return 0.05;
-    case Quality::good:
-        return 0.02;
-    default:
-        return 0.005;
-    }
-}
-
 void check(const BakeOptions& options) {
     task_of(options);
     require(!options.attributes.empty(), "--attributes is empty: name at least one, such as ao");

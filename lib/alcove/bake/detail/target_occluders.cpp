@@ -3,18 +3,9 @@
 
 #include "alcove/base/types.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace alcove {
-
-std::string GridSummary::text() const {
-    if (levels == 0)
-        return "on the mesh itself";
-    return fmt::format("{}, {} grid level{}, finest voxel {:.4g}{}", sign == Sign::solid ? "solid" : "sheet", levels,
-                       levels == 1 ? "" : "s", voxel, clustered ? ", vertices within half a voxel clustered" : "");
-}
 
 GridSummary summary_of(const GridStack& stack) {
     if (stack.levels.empty())
