@@ -65,7 +65,7 @@ class WholeResult {
         for (const std::string& warning : part.warnings) {
             constexpr std::size_t max_warnings = 3;
             if (++warned_ <= max_warnings)
-                result_.warnings.push_back(name + ": " + warning);
+                result_.warnings.push_back(fmt::format("{}: {}", name, warning));
             else
                 ++omitted_;
         }
