@@ -12,7 +12,7 @@ namespace alcove {
 namespace {
 
 constexpr std::size_t batch_size = std::size_t(1) << 18; // points; limits memory
-constexpr double max_intervals = 64.0;
+constexpr int max_intervals = 64;
 
 struct Edge {
     std::uint32_t a = 0, b = 0;
@@ -87,14 +87,20 @@ class AdaptiveCuts {
     void add_points(const Piece& piece, std::size_t side, Edge& edge) {
         const double length = std::sqrt(bisection_.squared_length(edge.a, edge.b));
         // A power of two, so that the midpoint is tested: it may become a vertex.
-        double intervals = 2.0;
+        int intervals = 2;
         while (spacing_ > 0.0 && length > spacing_ * intervals && intervals < max_intervals)
-            intervals *= 2.0;
-        for (double i = 1.0; i < intervals; ++i) {
-            if (i == 0.5 * intervals)
+            intervals *= 2;
+        for (int i = 1; i < intervals; ++i) {
+            if (2 * i == intervals)
                 edge.middle = next_number();
-            add_point(piece, side, {1.0 - i / intervals, i / intervals, 0.0}, edge.normal, edge);
+            const double along = double(i) / intervals;
+            add_point(piece, side, {1.0 - along, along, 0.0}, edge.normal, edge);
         }
+    }
+
+    /// How many intervals of the spacing cover a length.
+    int intervals_of(double length) const {
+        return length > 0.0 ? static_cast<int>(std::min(std::ceil(length / spacing_), double(max_intervals))) : 0;
     }
 
     /// Adds rows of points parallel to the longest side, or only the centre if the triangle is lower than the spacing.
@@ -103,14 +109,14 @@ class AdaptiveCuts {
         const Vec3d normal = area_normal(piece);
         const double length = std::sqrt(bisection_.squared_length(edge.a, edge.b));
         const double height = glm::length(normal) / length;
-        const double rows = spacing_ > 0.0 ? std::min(std::ceil(height / spacing_), max_intervals) : 1.0;
-        if (rows < 2.0)
+        const int rows = spacing_ > 0.0 ? intervals_of(height) : 1;
+        if (rows < 2)
             add_point(piece, longest, Vec3d(1.0 / 3.0), normal, edge);
-        for (double row = 1.0; row < rows; ++row) {
-            const double up = row / rows;
-            const double count = std::min(std::ceil((1.0 - up) * length / spacing_), max_intervals);
-            for (double i = 0.5; i < count; ++i) {
-                const double along = i / count;
+        for (int row = 1; row < rows; ++row) {
+            const double up = double(row) / rows;
+            const int count = intervals_of((1.0 - up) * length);
+            for (int i = 0; i < count; ++i) {
+                const double along = (i + 0.5) / count;
                 add_point(piece, longest, {(1.0 - up) * (1.0 - along), (1.0 - up) * along, up}, normal, edge);
             }
         }

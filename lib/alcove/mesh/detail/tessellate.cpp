@@ -75,13 +75,13 @@ void interpolate(std::vector<Color>& colors, std::span<const AddedVertex> added)
 
 void add_vertices(Mesh& mesh, const Bisection& bisection) {
     const std::vector<AddedVertex>& added = bisection.added();
-    for (const auto& [between, weights] : added) {
+    for (const AddedVertex& vertex : added) {
+        const auto at = [&](const auto& values, int i) { return values[vertex.between[std::size_t(i)]]; };
         if (!mesh.normals.empty())
             mesh.normals.push_back(
-                unit_or_zero(blended(weights, [&](int i) { return Vec3d(mesh.normals[between[std::size_t(i)]]); })));
+                unit_or_zero(blended(vertex.weights, [&](int i) { return Vec3d(at(mesh.normals, i)); })));
         if (!mesh.vertex_uvs.empty())
-            mesh.vertex_uvs.emplace_back(
-                blended(weights, [&](int i) { return Vec2d(mesh.vertex_uvs[between[std::size_t(i)]]); }));
+            mesh.vertex_uvs.emplace_back(blended(vertex.weights, [&](int i) { return Vec2d(at(mesh.vertex_uvs, i)); }));
     }
     interpolate(mesh.vertex_colors, added);
     interpolate(mesh.added_colors, added);
