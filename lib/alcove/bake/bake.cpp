@@ -1,9 +1,9 @@
 #include "alcove/bake/bake.h"
-#include "alcove/base/detail/stopwatch.h"
 
 #include "alcove/bake/detail/options.h"
 #include "alcove/bake/detail/parts.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/voxelize.h"

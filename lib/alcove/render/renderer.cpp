@@ -1,8 +1,8 @@
 #include "alcove/render/renderer.h"
-#include "alcove/render/detail/image_method.h"
 
 #include "alcove/base/parallel.h"
 #include "alcove/render/detail/hit_values.h"
+#include "alcove/render/detail/image_method.h"
 #include "alcove/render/detail/snap.h"
 
 #include <algorithm>

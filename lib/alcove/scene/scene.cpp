@@ -1,7 +1,7 @@
 #include "alcove/scene/scene.h"
-#include "alcove/render/detail/image_method.h"
 
 #include "alcove/base/types.h"
+#include "alcove/render/detail/image_method.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,9 @@
 #include "alcove/bake/detail/target.h"
-#include "alcove/base/detail/stopwatch.h"
 
 #include "alcove/bake/detail/causes.h"
 #include "alcove/bake/detail/planner.h"
 #include "alcove/bake/detail/target_occluders.h"
+#include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/plan.h"

@@ -1,6 +1,6 @@
 #include "alcove/bake/detail/target_occluders.h"
-#include "alcove/base/detail/stopwatch.h"
 
+#include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/types.h"
 
 #include <algorithm>
