@@ -45,7 +45,7 @@ class PlainEmbree {
         rtcInitIntersectContext(&context);
         for (const std::uint32_t i : spatial_order(surfels)) {
             const Basis basis(surfels[i].normal);
-            const Vec3 origin = surfels[i].position + Exact::offset * basis.normal;
+            const Vec3 origin = surfels[i].position + ray_offset(radius) * basis.normal;
             const CosineLattice::Shift shift(hash(surfels[i].position, 0));
             for (int r = 0; r < rays; ++r) {
                 const Vec3 direction = basis.to_world(lattice.direction(r, shift));

@@ -48,7 +48,7 @@ inline double value_noise(const Vec3d& p) {
 /// of 8.
 inline Mesh displaced(Mesh mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
-    const std::vector<Vec3> normals = area_weighted_normals(mesh, triangles);
+    const std::vector<Vec3> normals = angle_weighted_normals(mesh, triangles);
     double edge = 0.0;
     for (const Triangle& t : triangles)
         edge += glm::length(mesh.positions[t[0]] - mesh.positions[t[1]]) / static_cast<double>(triangles.size());

@@ -273,8 +273,12 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
         ->default_str("ao");
     add_choice<NormalSource>(
         app, "--normals", bake.normals,
-        {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"area", NormalSource::area}},
-        "file: normals of the file; area: area-weighted face normals; auto: file if there are any, else area")
+        {{"auto", NormalSource::automatic},
+         {"file", NormalSource::file},
+         {"angle", NormalSource::angle},
+         {"area", NormalSource::area}},
+        "file: normals of the file; angle, area: means of face normals, weighted by the angles at the vertex or by the "
+        "areas; auto: file if there are any, else angle")
         ->type_name("SOURCE")
         ->default_str("auto");
     app.add_option("--tessellate", verb.tessellate,

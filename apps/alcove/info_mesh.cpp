@@ -1,9 +1,11 @@
 #include "facts.h"
 
 #include "alcove/base/detail/messages.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/formats/ply/ply_document.h"
+#include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +33,7 @@ void add_faces(Facts& facts, const Diagnosis& diagnosis) {
 
 void add_attributes(Facts& facts, const Mesh& mesh) {
     const bool normals = !mesh.normals.empty();
-    facts.add("normals", normals, normals ? "one per vertex" : "none; area-weighted ones will be used");
+    facts.add("normals", normals, normals ? "one per vertex" : "none; angle-weighted ones will be used");
     const auto where = [&](const char* key, bool vertex, bool other, const char* name) {
         facts.add(key,
                   vertex  ? nlohmann::ordered_json("vertex")
@@ -109,11 +111,16 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
                                 d.signed_volume)
                   : fmt::format("{}, none of them closed", grouped(d.components)));
     facts.add("findings", describe(d), describe(d));
-    const bool solid = d.closed() && d.inverted_components == 0;
+}
+
+/// As a bake decides it.
+void add_sign(Facts& facts, const Mesh& mesh) {
+    const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    if (triangles.empty())
+        return facts.add("sign", nullptr, "none: there is nothing to bake");
+    const bool solid = sign_of(mesh, triangles) == Sign::solid;
     facts.add("sign", solid ? "solid" : "sheet",
-              d.components == 0 ? "none: there is nothing to bake"
-              : solid           ? d.components == 1 ? "a solid" : "a solid, unless one part is inside another"
-                                : "a sheet: faces occlude from both sides, and there is no inside");
+              solid ? "a solid" : "a sheet: faces occlude from both sides, and there is no inside");
 }
 
 }
@@ -134,6 +141,7 @@ Facts facts_of_mesh(const Mesh& mesh) {
     if (const auto* obj = dynamic_cast<const ObjDocument*>(mesh.source.get()))
         add_obj(facts, *obj);
     add_diagnosis(facts, diagnosis);
+    add_sign(facts, mesh);
     facts.add("warnings", mesh.warnings, mesh.warnings);
     return facts;
 }

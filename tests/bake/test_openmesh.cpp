@@ -182,9 +182,9 @@ TEST(BakeOpenMesh, TakesTheNormalsOfTheMesh) {
     Mesh up = box_over_plate();
     up.normals.assign(up.vertex_count(), Vec3(0, 1, 0));
     EXPECT_EQ(bake(mesh, quick()).ao(), bake(up, quick()).ao());
-    BakeOptions by_area = quick();
-    by_area.normals = NormalSource::area;
-    EXPECT_EQ(bake(mesh, by_area).ao(), bake(box_over_plate(), quick()).ao());
+    BakeOptions by_angle = quick();
+    by_angle.normals = NormalSource::angle;
+    EXPECT_EQ(bake(mesh, by_angle).ao(), bake(box_over_plate(), quick()).ao());
     for (const auto v : mesh.vertices())
         mesh.set_normal(v, PolyMesh::Normal(0, 0, 0)); // requested and never set
     EXPECT_EQ(bake(mesh, quick()).ao(), bake(box_over_plate(), quick()).ao());

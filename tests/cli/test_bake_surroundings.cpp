@@ -45,7 +45,7 @@ double under_sphere(double a, double h, double s, double radius) {
 }
 
 std::vector<Vec3> normals_of(const Mesh& mesh) {
-    return area_weighted_normals(mesh, triangulate(mesh).triangles);
+    return angle_weighted_normals(mesh, triangulate(mesh).triangles);
 }
 
 TEST_F(BakeSurroundings, AFloorUnderASphere) {

@@ -3,6 +3,7 @@
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/triangulate.h"
+#include "shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -119,13 +120,13 @@ TEST(Normals, SurfelsTakeTheFileNormalsAndFillTheirGaps) {
     mesh.normals = {{0, 0, 1}, {0, 0, 0}, {2, 0, 0}, {0, NAN, 0}};
     const auto triangles = triangulate(mesh).triangles;
     const Frame frame = frame_of(mesh.box());
-    const auto area = area_weighted_normals(mesh, triangles);
+    const auto angle = angle_weighted_normals(mesh, triangles), area = area_weighted_normals(mesh, triangles);
 
     const auto automatic = make_surfels(mesh, triangles, frame);
     EXPECT_EQ(automatic[0].normal, Vec3(0, 0, 1));
-    EXPECT_EQ(automatic[1].normal, area[1]);
+    EXPECT_EQ(automatic[1].normal, angle[1]);
     EXPECT_EQ(automatic[2].normal, Vec3(1, 0, 0));
-    EXPECT_EQ(automatic[3].normal, area[3]);
+    EXPECT_EQ(automatic[3].normal, angle[3]);
 
     const auto file = make_surfels(mesh, triangles, frame, NormalSource::file);
     EXPECT_EQ(file[0].normal, Vec3(0, 0, 1));
@@ -133,9 +134,27 @@ TEST(Normals, SurfelsTakeTheFileNormalsAndFillTheirGaps) {
     EXPECT_FALSE(file[3].has_normal());
 
     const auto weighted = make_surfels(mesh, triangles, frame, NormalSource::area);
+    const auto by_angle = make_surfels(mesh, triangles, frame, NormalSource::angle);
     for (std::size_t v = 0; v < 4; ++v) {
         EXPECT_EQ(weighted[v].normal, area[v]);
         EXPECT_EQ(weighted[v].position, frame.to_unit(mesh.positions[v]));
+        EXPECT_EQ(by_angle[v].normal, angle[v]);
+    }
+}
+
+// Each corner of a box has three right angles, however its sides are cut into triangles and whatever their areas are.
+TEST(Normals, AngleWeightsDoNotDependOnTheTriangulation) {
+    for (const int n : {1, 2, 3}) {
+        const Mesh box = test::box_mesh({1.0, 2.0, 5.0}, n);
+        const std::vector<Vec3> normals = angle_weighted_normals(box, triangulate(box).triangles);
+        int corners = 0;
+        for (std::size_t v = 0; v < normals.size(); ++v) {
+            const Vec3d p = box.positions[v] / Vec3d(1.0, 2.0, 5.0), size = glm::abs(p);
+            const Vec3d on(size.x > 0.999, size.y > 0.999, size.z > 0.999);
+            EXPECT_LT(glm::length(Vec3d(normals[v]) - glm::normalize(on * p)), 1e-6) << n << ", " << v;
+            corners += on == Vec3d(1.0);
+        }
+        EXPECT_EQ(corners, 8);
     }
 }
 
@@ -145,14 +164,14 @@ TEST(Normals, AskingForFileNormalsThatAreNotThereNamesTheMend) {
         make_surfels(mesh, triangulate(mesh).triangles, frame_of(mesh.box()), NormalSource::file);
         FAIL() << "no error";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("--normals area"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("--normals angle"), std::string::npos);
     }
 }
 
 TEST(Normals, VerticesThatAreNotFiniteHaveNoNormalAndSpoilNoOther) {
     Mesh mesh = tetrahedron();
     const Frame frame = frame_of(mesh.box());
-    const auto clean = make_surfels(mesh, triangulate(mesh).triangles, frame);
+    const auto clean = make_surfels(mesh, triangulate(mesh).triangles, frame, NormalSource::area);
     mesh.positions.emplace_back(NAN, 0, 0);
     mesh.positions.emplace_back(0, 0, INFINITY);
     mesh.normals.assign(6, Vec3(0, 1, 0));

@@ -220,7 +220,9 @@ TEST(Exact, AgreesWithRaysShotElsewhere) {
             for (std::size_t i = 0; i < some.size(); ++i) {
                 const double error = some[i].has_normal() ? ao[i] - oracle.visibility(some[i], radius, 1024) : 0.0;
                 sum += error * error;
-                EXPECT_LE(ao[i], previous[i]) << "the same rays, reaching further";
+                if (radius > 0.1f) { // below, the offset of rays grows with the radius
+                    EXPECT_LE(ao[i], previous[i]) << "the same rays, reaching further";
+                }
             }
             EXPECT_LE(std::sqrt(sum / static_cast<double>(some.size())), 0.006) << name << " " << radius;
             previous = ao;

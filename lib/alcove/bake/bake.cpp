@@ -7,6 +7,7 @@
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/mesh/detail/outlier_faces.h"
 #include "alcove/mesh/detail/source.h"
 #include "alcove/mesh/triangulate.h"
 
@@ -109,6 +110,28 @@ std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, std::span<co
     return surfels;
 }
 
+/// Normals of the file that point against their faces make everything dark.
+void warn_of_flipped_normals(const PreparedMesh& prepared, std::span<const Surfel> vertices,
+                             std::vector<std::string>& warnings) {
+    constexpr std::size_t most_faces = 4096;
+    const std::size_t stride = std::max<std::size_t>(prepared.triangles.size() / most_faces, 1);
+    std::size_t against = 0, compared = 0;
+    for (std::size_t i = 0; i < prepared.triangles.size(); i += stride) {
+        const Triangle& t = prepared.triangles[i];
+        const std::vector<Vec3d>& p = prepared.mesh.positions;
+        const Vec3 normal = unit_or_zero(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+        for (const std::uint32_t v : t) {
+            const float cosine = glm::dot(normal, vertices[v].normal);
+            compared += cosine != 0.0f;
+            against += cosine < 0.0f;
+        }
+    }
+    if (2 * against > compared)
+        warnings.push_back(fmt::format("the normals of the file point to the back of the faces at {:.0f} % of the "
+                                       "vertices: use --normals angle, or flip them",
+                                       100.0 * static_cast<double>(against) / static_cast<double>(compared)));
+}
+
 void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,
                              std::vector<std::string>& warnings) {
     const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
@@ -116,6 +139,31 @@ void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view w
         warnings.push_back(fmt::format("{} of {} {} have no normal (no face uses them, or their faces cancel) and got "
                                        "ao = 1",
                                        grouped(static_cast<std::size_t>(missing)), grouped(surfels.size()), what));
+}
+
+void warn_of_offset(const PreparedMesh& prepared, std::vector<std::string>& warnings) {
+    constexpr float noticeable = 0.02f;
+    const float offset = ray_offset(prepared.radius);
+    if (offset > noticeable * prepared.radius)
+        warnings.push_back(
+            fmt::format("the radius is only {:.2g} of the diagonal: rays have to start {:.2g} of the radius above the "
+                        "surface, which "
+                        "brightens creases; use a larger radius, or bake the parts of the scene one at a time",
+                        prepared.radius, offset / prepared.radius));
+}
+
+/// Lengths in percent of the diagonal make no sense if a few faces determine it.
+void warn_of_outliers(const PreparedMesh& prepared, const BakeOptions& options, std::vector<std::string>& warnings) {
+    if (options.radius.unit != Length::Unit::diagonal)
+        return;
+    if (const std::optional<OutlierFaces> outliers = find_outlier_faces(prepared.mesh)) {
+        const double rest = outliers->rest.diagonal();
+        warnings.push_back(fmt::format(
+            "{} of {} faces, such as face {}, make the diagonal of the bounding box {:.3g} instead of {:.3g}, so the "
+            "radius is {:.3g}: remove them, or give the radius in scene units, such as --radius {:.2g}",
+            grouped(outliers->count), grouped(prepared.mesh.face_count()), grouped(outliers->example + 1),
+            prepared.frame.diagonal, rest, prepared.radius * prepared.frame.diagonal, 0.1 * rest));
+    }
 }
 
 Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& prepared) {
@@ -138,10 +186,16 @@ Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& pr
     return baked;
 }
 
-/// `surfels_of` returns the surfels to bake for a prepared mesh; `what` names them in warnings.
-template <class SurfelsOf>
-Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, std::string_view what, bool by_parts,
-                   const SurfelsOf& surfels_of) {
+/// What bake_surfels() bakes on a mesh.
+struct SurfelSource {
+    std::string_view name; ///< of the surfels, in warnings
+    bool of_vertices;
+    bool by_parts;
+    std::function<std::vector<Surfel>(const PreparedMesh&)> surfels;
+    IsOwnFace is_own_face;
+};
+
+Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSource& source) {
     const ThreadLimit limit(options.threads);
     check(options);
     BakeTask task = task_of(options);
@@ -150,18 +204,22 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, std::string_vie
     try {
         const PreparedMesh prepared = prepare(mesh, options, warnings);
         Surroundings surroundings(options, mesh, prepared.frame, prepared.radius, warnings);
-        task.from_file_normals = !mesh.normals.empty() && options.normals != NormalSource::area;
         BakeTarget whole{mesh,
                          prepared.triangles,
                          prepared.frame,
-                         surfels_of(prepared),
+                         source.surfels(prepared),
                          prepared.radius,
                          prepared.voxelizing,
                          prepared.grid ? &*prepared.grid : nullptr};
-        warn_of_missing_normals(whole.surfels, what, warnings);
+        whole.is_own_face = source.is_own_face;
+        if (source.of_vertices && !mesh.normals.empty())
+            warn_of_flipped_normals(prepared, whole.surfels, warnings);
+        warn_of_missing_normals(whole.surfels, source.name, warnings);
+        warn_of_outliers(prepared, options, warnings);
+        warn_of_offset(prepared, warnings);
         const double preparing = watch.lap();
-        TargetResult result = by_parts ? bake_parts(whole, task, options.normals, surroundings, options.progress)
-                                       : bake_target(whole, task, surroundings, options.progress);
+        TargetResult result = source.by_parts ? bake_parts(whole, task, options.normals, surroundings, options.progress)
+                                              : bake_target(whole, task, surroundings, options.progress);
         result.seconds.grid += preparing;
         Baked baked = to_baked(std::move(result), task, prepared);
         baked.warnings.insert(baked.warnings.begin(), warnings.begin(), warnings.end());
@@ -210,13 +268,21 @@ std::string GridSummary::text() const {
 }
 
 Baked bake(const Mesh& mesh, const BakeOptions& options) {
-    return bake_surfels(mesh, options, "vertices", options.self,
-                        [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); });
+    const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); };
+    return bake_surfels(mesh, options, {"vertices", true, options.self, surfels, uses_vertex});
 }
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
-    return bake_surfels(mesh, options, "points", false,
-                        [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); });
+    const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); };
+    const auto is_own_face = [&](std::size_t i, const Triangle& t) {
+        if (points[i].face == no_face)
+            return false;
+        const std::span<const std::uint32_t> face = mesh.face(points[i].face);
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+            return std::find(face.begin(), face.end(), corner) != face.end();
+        });
+    };
+    return bake_surfels(mesh, options, {"points", false, false, surfels, is_own_face});
 }
 
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {

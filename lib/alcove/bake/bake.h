@@ -140,9 +140,11 @@ inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
 
 /// A point to bake other than a vertex: a texel, a corner, a sample.
 struct SurfacePoint {
-    Vec3d position{0.0};          ///< scene units
-    Vec3 normal{0.0f};            ///< any length; zero: the normal of the face
-    std::uint32_t face = no_face; ///< index of the face that it lies on; used only if `normal` is zero
+    Vec3d position{0.0}; ///< scene units
+    Vec3 normal{0.0f};   ///< any length; zero: the normal of the face
+    /// Index of the face that it lies on. Without one, the faces that it touches and whose normals are within 60° of its
+    /// own count as its own.
+    std::uint32_t face = no_face;
 };
 
 /// Bakes points on or near a mesh, as above. `normals` and `self` have no effect. A point without a normal or with a

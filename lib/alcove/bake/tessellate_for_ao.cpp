@@ -5,6 +5,7 @@
 #include "alcove/bake/detail/surroundings.h"
 #include "alcove/base/parallel.h"
 #include "alcove/mesh/triangulate.h"
+#include "alcove/occlusion/detail/contacts.h"
 #include "alcove/occlusion/methods/exact.h"
 
 #include <algorithm>
@@ -22,14 +23,14 @@ class InterpolationError {
                        const BakeOptions& options, const RaySurface& surface, float radius)
         : frame_(frame), surface_(surface), exact_{.radius = radius, .rays = rays},
           allowed_(options.error.value_or(rmse_of(options.quality))),
-          ao_(evaluate_ao(make_surfels(mesh, triangles, frame, options.normals), surface, exact_)) {}
+          ao_(ao_of(make_surfels(mesh, triangles, frame, options.normals), uses_vertex)) {}
 
     std::vector<bool> operator()(std::span<const PointBetween> points) {
         std::vector<Surfel> surfels;
         surfels.reserve(points.size());
         for (const PointBetween& point : points)
             surfels.push_back({frame_.to_unit(point.position), point.normal});
-        const std::vector<float> ao = evaluate_ao(surfels, surface_, exact_);
+        const std::vector<float> ao = ao_of(std::move(surfels));
         ao_.insert(ao_.end(), ao.begin(), ao.end()); // later points may be interpolated from these
         std::vector<bool> differs(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -43,6 +44,11 @@ class InterpolationError {
     }
 
   private:
+    std::vector<float> ao_of(std::vector<Surfel> surfels, const IsOwnFace& is_own = {}) const {
+        find_contacts(surfels, surface_, ray_offset(exact_.radius), is_own);
+        return evaluate_ao(surfels, surface_, exact_);
+    }
+
     const Frame& frame_;
     const RaySurface& surface_;
     Exact exact_;

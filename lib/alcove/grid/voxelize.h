@@ -50,6 +50,9 @@ struct VoxelizeOptions {
 /// \throw InputError if no triangle has nonzero area; LimitError as plan_levels().
 GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options = {});
 
+/// The sign that voxelize() chooses by default. Cost: about 10 ns per triangle. \throw LimitError as voxelize().
+Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles);
+
 /// Meshes the zero surface of the finest level in scene units, faces outward: quads, and triangles too if
 /// `adaptivity`, in [0, 1], is above 0 and merges flat regions. Uses OpenVDB's volumeToMesh, which is based on dual
 /// contouring (Ju et al. 2002). The mesh has a hole where the band ends at the surface.

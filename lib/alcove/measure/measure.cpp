@@ -8,10 +8,12 @@
 #include "alcove/measure/detail/heat_map.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
+#include "alcove/occlusion/detail/contacts.h"
 #include "alcove/occlusion/detail/subset.h"
 #include "alcove/occlusion/methods/exact.h"
 
 #include <ctime>
+#include <limits>
 
 namespace alcove {
 namespace {
@@ -78,6 +80,7 @@ MeasuredMesh::MeasuredMesh(std::string n, Mesh m)
       surfels(make_surfels(mesh, triangles, frame)), order(spatial_order(surfels)), rays(make_rays()) {
     if (order.empty())
         throw InputError(name + ": no vertex has a normal to measure occlusion at");
+    find_contacts(surfels, rays, ray_offset(std::numeric_limits<float>::infinity()), uses_vertex);
 }
 
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options, const Progress& progress) {

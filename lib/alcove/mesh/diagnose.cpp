@@ -277,7 +277,7 @@ std::vector<std::string> describe(const Diagnosis& d) {
     say(d.non_manifold_vertices, "non-manifold vertex", "non-manifold vertices",
         "surfaces touch at a point; normals average both");
     say(d.seam_edges(), "seam edge", "seam edges",
-        "closed if coincident vertices are merged; area-weighted normals are discontinuous there; provide "
+        "closed if coincident vertices are merged; face normals are discontinuous there; provide "
         "normals or merge the vertices");
     say(d.degenerate_faces, "face without area", "faces without area", "they are ignored");
     say(d.duplicate_faces, "duplicate face", "duplicate faces", "remove them: they may swap inside and outside");

@@ -10,11 +10,19 @@ void Mesh::add_face(std::span<const std::uint32_t> vertices) {
     face_begin.push_back(static_cast<std::uint32_t>(corners.size()));
 }
 
+std::vector<std::uint8_t> Mesh::used_vertices() const {
+    std::vector<std::uint8_t> used(vertex_count(), face_count() == 0);
+    for (const std::uint32_t v : corners)
+        used[v] = 1;
+    return used;
+}
+
 Box Mesh::box() const {
+    const std::vector<std::uint8_t> used = used_vertices();
     Box box;
-    for (const Vec3d& p : positions)
-        if (is_finite(p))
-            box.add(p);
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        if (used[v] && is_finite(positions[v]))
+            box.add(positions[v]);
     return box;
 }
 

@@ -48,7 +48,9 @@ struct Mesh {
     }
     void add_face(std::span<const std::uint32_t> vertices);
 
-    /// The bounding box of all finite vertices.
+    /// For each vertex, 1 if a face uses it, else 0. 1 for all if there are no faces.
+    std::vector<std::uint8_t> used_vertices() const;
+    /// The bounding box of the finite vertices that faces use, or of all if there are no faces.
     Box box() const;
 
     /// Adds the attribute, or replaces the one of that name. \throw std::invalid_argument if the number of values

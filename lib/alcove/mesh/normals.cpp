@@ -4,7 +4,9 @@
 #include "alcove/base/types.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 namespace alcove {
 namespace {
@@ -20,6 +22,45 @@ struct Sum {
 /// The power of two that brings a positive number near 1.
 double power_towards_one(double number) {
     return std::ldexp(1.0, std::clamp(-std::ilogb(number), -1022, 1022));
+}
+
+enum class Weight { angle, area };
+
+/// The weights of a triangle's normal at its corners. `cross` is the product of its sides `a` and `b`.
+std::array<double, 3> weights_of(Weight weight, const Vec3d& a, const Vec3d& b, double cross) {
+    if (weight == Weight::area)
+        return {cross, cross, cross};
+    const double first = std::atan2(cross, glm::dot(a, b)), second = std::atan2(cross, glm::dot(-a, b - a));
+    return {first, second, std::max(std::numbers::pi - first - second, 0.0)};
+}
+
+std::vector<Vec3> weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles, Weight weight) {
+    const double scale = exact_scale(mesh);
+
+    // Single-threaded: the result depends on the order of the additions, and the loop is bound by memory anyway.
+    std::vector<Sum> sums(mesh.vertex_count());
+    for (const Triangle& t : triangles) {
+        const Vec3d& origin = mesh.positions[t[0]];
+        const Vec3d a = scale * (mesh.positions[t[1]] - origin), b = scale * (mesh.positions[t[2]] - origin);
+        const Vec3d cross = glm::cross(a, b);
+        const double length = glm::length(cross);
+        if (length <= flat_sine * glm::length(a) * glm::length(b))
+            continue;
+        const std::array<double, 3> weights = weights_of(weight, a, b, length);
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums[t[k]].vector += weights[k] / length * cross;
+            sums[t[k]].lengths += weights[k];
+        }
+    }
+
+    std::vector<Vec3> normals(mesh.vertex_count());
+    parallel_for(normals.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const bool is_direction = glm::length(sums[v].vector) > cancelled * sums[v].lengths;
+            normals[v] = is_direction ? unit_or_zero(sums[v].vector) : Vec3(0.0f);
+        }
+    });
+    return normals;
 }
 
 }
@@ -41,39 +82,19 @@ double exact_scale(const Mesh& mesh) {
     return power_towards_one(frame_of(mesh.box()).diagonal);
 }
 
+std::vector<Vec3> angle_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
+    return weighted_normals(mesh, triangles, Weight::angle);
+}
+
 std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
-    const double scale = exact_scale(mesh);
-
-    // Single-threaded: the result depends on the order of the additions, and the loop is bound by memory anyway.
-    std::vector<Sum> sums(mesh.vertex_count());
-    for (const Triangle& t : triangles) {
-        const Vec3d& origin = mesh.positions[t[0]];
-        const Vec3d a = scale * (mesh.positions[t[1]] - origin), b = scale * (mesh.positions[t[2]] - origin);
-        const Vec3d cross = glm::cross(a, b);
-        const double length = glm::length(cross);
-        if (length <= flat_sine * glm::length(a) * glm::length(b))
-            continue;
-        for (const std::uint32_t v : t) {
-            sums[v].vector += cross;
-            sums[v].lengths += length;
-        }
-    }
-
-    std::vector<Vec3> normals(mesh.vertex_count());
-    parallel_for(normals.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            const bool is_direction = glm::length(sums[v].vector) > cancelled * sums[v].lengths;
-            normals[v] = is_direction ? unit_or_zero(sums[v].vector) : Vec3(0.0f);
-        }
-    });
-    return normals;
+    return weighted_normals(mesh, triangles, Weight::area);
 }
 
 std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
                                  NormalSource source) {
     if (source == NormalSource::file && mesh.normals.empty())
-        throw InputError("has no normals of its own: use --normals area");
-    const bool from_file = source != NormalSource::area && !mesh.normals.empty();
+        throw InputError("has no normals of its own: use --normals angle");
+    const bool from_file = (source == NormalSource::automatic || source == NormalSource::file) && !mesh.normals.empty();
 
     std::vector<Vec3> normals(mesh.vertex_count(), Vec3(0.0f));
     bool missing = !from_file;
@@ -82,17 +103,19 @@ std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> tri
         missing = missing || normals[v] == Vec3(0.0f);
     }
     if (missing && source != NormalSource::file) {
-        const std::vector<Vec3> area = area_weighted_normals(mesh, triangles);
+        const std::vector<Vec3> of_faces =
+            weighted_normals(mesh, triangles, source == NormalSource::area ? Weight::area : Weight::angle);
         for (std::size_t v = 0; v < normals.size(); ++v)
             if (normals[v] == Vec3(0.0f))
-                normals[v] = area[v];
+                normals[v] = of_faces[v];
     }
 
+    const std::vector<std::uint8_t> used = mesh.used_vertices();
     std::vector<Surfel> surfels(mesh.vertex_count());
     parallel_for(surfels.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
-            surfels[v] = is_finite(mesh.positions[v]) ? Surfel{frame.to_unit(mesh.positions[v]), normals[v]}
-                                                      : Surfel{Vec3(0.0f), Vec3(0.0f)};
+            surfels[v] = used[v] && is_finite(mesh.positions[v]) ? Surfel{frame.to_unit(mesh.positions[v]), normals[v]}
+                                                                 : Surfel{Vec3(0.0f), Vec3(0.0f)};
     });
     return surfels;
 }

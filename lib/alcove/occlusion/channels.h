@@ -27,15 +27,16 @@ struct ChannelInfo {
     std::size_t components; ///< floats per surfel
     float missing;          ///< value for surfels without a normal
     bool inside;            ///< reads the field behind the surface, down to the radius
+    bool visibility;        ///< 0 for surfels that other faces cover
 };
 
 inline constexpr std::array<ChannelInfo, 6> channels{{
-    {Channel::ao, "ao", 1, 1.0f, false},
-    {Channel::ao_short, "ao_short", 1, 1.0f, false},
-    {Channel::ao_long, "ao_long", 1, 1.0f, false},
-    {Channel::convexity, "convexity", 1, 0.5f, true},
-    {Channel::bent_normal, "bent_normal", 3, 0.0f, false},
-    {Channel::thickness, "thickness", 1, 0.0f, true},
+    {Channel::ao, "ao", 1, 1.0f, false, true},
+    {Channel::ao_short, "ao_short", 1, 1.0f, false, true},
+    {Channel::ao_long, "ao_long", 1, 1.0f, false, true},
+    {Channel::convexity, "convexity", 1, 0.5f, true, false},
+    {Channel::bent_normal, "bent_normal", 3, 0.0f, false, true},
+    {Channel::thickness, "thickness", 1, 0.0f, true, false},
 }};
 
 constexpr const ChannelInfo& info(Channel channel) {

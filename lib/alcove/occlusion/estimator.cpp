@@ -26,7 +26,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     radix_sort(keys, code_bits - sorted_by_radix, code_bits);
     const auto tuple = [&](const Code& key) {
         const Surfel& s = surfels[key.value];
-        return std::tuple(s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z, key.value);
+        return std::tuple(s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z, s.away.x,
+                          s.away.y, s.away.z, key.value);
     };
     const auto upper = [&](const Code& key) { return key.key >> (code_bits - sorted_by_radix); };
     for (auto begin = keys.begin(), end = begin; begin != keys.end(); begin = end) {

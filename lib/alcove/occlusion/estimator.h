@@ -19,6 +19,7 @@
 
 #include "alcove/field/field.h"
 #include "alcove/occlusion/channels.h"
+#include "alcove/occlusion/occluders.h"
 
 #include "alcove/base/parallel.h"
 #include <algorithm>
@@ -40,15 +41,27 @@ struct SurfelBatch {
 
     Values x, y, z;    ///< positions
     Values nx, ny, nz; ///< unit normals
+    Values lx, ly, lz; ///< normals plus Surfel::away
     std::size_t count = 0;
 
-    void push_back(const Surfel& surfel) {
-        x[count] = surfel.position.x, y[count] = surfel.position.y, z[count] = surfel.position.z;
-        nx[count] = surfel.normal.x, ny[count] = surfel.normal.y, nz[count] = surfel.normal.z;
+    /// The position is moved by `lift` away from the faces that the surfel touches.
+    void push_back(const Surfel& surfel, float lift = 0.0f) {
+        set(x, y, z, surfel.position + lift * surfel.away);
+        set(nx, ny, nz, surfel.normal);
+        set(lx, ly, lz, surfel.normal + surfel.away);
         ++count;
     }
     Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
     Vec3 normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
+    Vec3 away(std::size_t i) const { return Vec3(lx[i], ly[i], lz[i]) - normal(i); }
+    bool touches(std::size_t i) const { return lx[i] != nx[i] || ly[i] != ny[i] || lz[i] != nz[i]; }
+    /// Where rays start, see Surfel::origin().
+    Vec3 origin(std::size_t i, float height) const { return position(i) + height * Vec3(lx[i], ly[i], lz[i]); }
+
+  private:
+    void set(Values& to_x, Values& to_y, Values& to_z, const Vec3& v) {
+        to_x[count] = v.x, to_y[count] = v.y, to_z[count] = v.z;
+    }
 };
 
 /// `F` is a Field, or a RaySurface for estimators that trace rays against the mesh.
@@ -64,6 +77,12 @@ constexpr ChannelSet channels_of() {
         return E::gives;
     else
         return Channel::ao;
+}
+
+/// How far above the surface probes and rays start: the offset of rays, and in a grid a tenth of a voxel at least.
+template <Field F>
+float start_height(const F& field, float radius) {
+    return std::max(0.1f * resolution(field), ray_offset(radius));
 }
 
 /// One point per surfel.
@@ -98,7 +117,7 @@ void probe_along_normal(const F& field, const SurfelBatch& surfels, float height
 std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 
 /// Every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels without
-/// a normal get ChannelInfo::missing. The values depend neither on the number of threads nor on the order of
+/// a normal get ChannelInfo::missing; covered ones get 0 in channels of visibility. The values depend neither on the number of threads nor on the order of
 /// the surfels. `progress` is never called concurrently. Cost: that of the estimator, per surfel.
 template <class F, Estimator<F> E>
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const F& field,
@@ -109,6 +128,9 @@ ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uin
         if (wanted.has(channel.channel))
             baked[channel.channel].assign(surfels.size() * channel.components, channel.missing);
     constexpr std::size_t grain = 16 * SurfelBatch::capacity;
+    float lift = 0.0f;
+    if constexpr (Field<F> && requires { estimator.radius; })
+        lift = start_height(field, estimator.radius);
     std::mutex progress_mutex;
     std::size_t finished = 0;
     parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -121,13 +143,17 @@ ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uin
         for (std::size_t at = begin; at < end; at += batch.count) {
             batch.count = 0;
             for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
-                batch.push_back(surfels[order[i]]);
+                batch.push_back(surfels[order[i]], lift);
             estimator(field, batch, out);
             for (const ChannelInfo& channel : channels)
                 if (wanted.has(channel.channel))
-                    for (std::size_t k = 0; k < batch.count; ++k)
-                        std::copy_n(out[channel.channel] + k * channel.components, channel.components,
-                                    baked[channel.channel].data() + order[at + k] * channel.components);
+                    for (std::size_t k = 0; k < batch.count; ++k) {
+                        float* to = baked[channel.channel].data() + order[at + k] * channel.components;
+                        if (channel.visibility && surfels[order[at + k]].covered)
+                            std::fill_n(to, channel.components, 0.0f);
+                        else
+                            std::copy_n(out[channel.channel] + k * channel.components, channel.components, to);
+                    }
         }
         if (progress) {
             const std::lock_guard lock(progress_mutex);

@@ -7,16 +7,25 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace alcove {
+
+float ray_offset(float radius) {
+    constexpr float of_diagonal = 1e-4f, of_radius = 1e-3f;
+    constexpr float rounding = 2.5e-7f; // four units in the last place of coordinates near 0.5
+    return std::max(std::min(of_diagonal, of_radius * radius), rounding);
+}
 
 struct RaySurface::Scene {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
     std::vector<TrianglePair> pairs; // Embree's quads
+    const Vec3* positions = nullptr; // Embree's vertices
 
     Scene() = default;
     Scene(const Scene&) = delete;
@@ -46,6 +55,7 @@ RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle
         void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size());
         scene->check();
         std::memcpy(to, items.data(), items.size_bytes());
+        return to;
     };
     // Builds in a quarter of the time of higher quality, and rays are as fast.
     constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
@@ -58,7 +68,8 @@ RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle
         rtcSetGeometryBuildQuality(geometry, quality);
         rtcAttachGeometry(scene->scene, geometry);
         rtcReleaseGeometry(geometry);
-        buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions);
+        scene->positions =
+            static_cast<const Vec3*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions));
         buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, std::span<const TrianglePair>(pairs));
         rtcCommitGeometry(geometry);
     }
@@ -121,6 +132,30 @@ void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> h
         rays.travelled[i] = stream[i].ray.tfar;
         hits[i] = hit_of(stream[i].hit, scene_->pairs[stream[i].hit.primID]);
     }
+}
+
+Vec3 RaySurface::position(std::uint32_t index) const {
+    return scene_->positions[index];
+}
+
+void RaySurface::find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const {
+    struct Search {
+        const std::vector<TrianglePair>& pairs;
+        std::vector<Triangle>& found;
+    } search{scene_->pairs, found};
+    found.clear();
+    RTCPointQuery query{point.x, point.y, point.z, 0.0f, distance};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    const auto add = [](RTCPointQueryFunctionArguments* at) {
+        Search& to = *static_cast<Search*>(at->userPtr);
+        const TrianglePair& pair = to.pairs[at->primID];
+        to.found.push_back({pair[0], pair[1], pair[3]});
+        if (pair[2] != pair[3])
+            to.found.push_back({pair[2], pair[3], pair[1]});
+        return false; // the distance stays the same
+    };
+    rtcPointQuery(scene_->scene, &query, &context, add, &search);
 }
 
 const AnyField& Occluders::field() const {

@@ -1,6 +1,7 @@
 #include "alcove/render/renderer.h"
 
 #include "alcove/base/parallel.h"
+#include "alcove/occlusion/detail/contacts.h"
 #include "alcove/render/detail/hit_values.h"
 #include "alcove/render/detail/image_method.h"
 #include "alcove/render/detail/snap.h"
@@ -150,8 +151,12 @@ Image render(const Renderable& renderable, const Camera& camera, const RenderOpt
                      [&](std::size_t begin, std::size_t end) { rays.trace(region, begin, end, hits); });
         if (renderable.mesh) {
             hits.painted.resize(renderable.mesh->painted.empty() ? 0 : hits.surfels.size());
+            hits.faces.assign(hits.surfels.size(), {});
             parallel_for(hits.surfels.size(), 16 * RayBatch::capacity,
                          [&](std::size_t begin, std::size_t end) { snap(renderable, camera, begin, end, hits); });
+            if (options.method && need_ao(options.passes))
+                find_contacts(hits.surfels, renderable.mesh->surface, ray_offset(options.settings.radius),
+                              [&](std::size_t i, const Triangle& face) { return face == hits.faces[i]; });
         }
         const auto done = [&](double part) {
             if (progress)

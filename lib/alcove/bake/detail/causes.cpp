@@ -40,60 +40,19 @@ std::string thin_walls_warning(const BakeTarget& target, const Occluders& occlud
                        100.0 * walls.share, double(resolution(field)) * diagonal, finer);
 }
 
-std::string flipped_normals_warning(const BakeTarget& target) {
-    const std::vector<Vec3> of_faces = area_weighted_normals(target.mesh, target.triangles);
-    if (of_faces.size() != target.surfels.size())
-        return {};
-    std::size_t against = 0, compared = 0;
-    for (std::size_t v = 0; v < of_faces.size(); ++v) {
-        if (of_faces[v] == Vec3(0.0f) || !target.surfels[v].has_normal())
-            continue;
-        ++compared;
-        against += glm::dot(of_faces[v], target.surfels[v].normal) < 0.0f;
-    }
-    if (2 * against <= compared)
-        return {};
-    return fmt::format("the normals of the file point to the back of the faces at {:.0f} % of the vertices: use "
-                       "--normals area, or flip them",
-                       100.0 * static_cast<double>(against) / static_cast<double>(compared));
-}
-
-/// Whether the surfel lies on a face that has no vertex at its position.
-bool lies_on_another_face(const Surfel& surfel, const Mesh& mesh, const Frame& frame, const RaySurface& surface,
-                          float offset) {
-    const Vec3 side = std::fabs(surfel.normal.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-    const Vec3 tangent = glm::normalize(glm::cross(surfel.normal, side));
-    const Vec3 bitangent = glm::cross(surfel.normal, tangent);
-    RayBatch rays;
-    for (const Vec3& aside : {tangent, -tangent, bitangent, -bitangent})
-        rays.push_back({surfel.position + offset * (aside + surfel.normal), -surfel.normal}, 0.0f);
-    std::array<SurfaceHit, RayBatch::capacity> hits;
-    surface.find_nearest(rays, 2.0f * offset, hits);
-    for (std::size_t i = 0; i < rays.count; ++i) {
-        if (!rays.hit[i])
-            continue;
-        const bool own = std::any_of(hits[i].vertices.begin(), hits[i].vertices.end(), [&](std::uint32_t v) {
-            return v < mesh.positions.size() &&
-                   glm::distance(frame.to_unit(mesh.positions[v]), surfel.position) < 0.5f * offset;
-        });
-        if (!own)
-            return true;
-    }
-    return false;
-}
-
-std::string contact_warning(const BakeTarget& target, const RaySurface& surface) {
-    const std::vector<Surfel> some = pick(target.surfels, evenly(spatial_order(target.surfels), max_surfels));
-    const auto touching = std::count_if(some.begin(), some.end(), [&](const Surfel& surfel) {
-        return lies_on_another_face(surfel, target.mesh, target.frame, surface, Exact::offset);
+std::string contact_warning(const BakeTarget& target) {
+    const auto touching = std::count_if(target.surfels.begin(), target.surfels.end(), [](const Surfel& surfel) {
+        return surfel.covered || surfel.away != Vec3(0.0f);
     });
-    const double share = static_cast<double>(touching) / static_cast<double>(std::max<std::size_t>(some.size(), 1));
+    const double share =
+        static_cast<double>(touching) / static_cast<double>(std::max<std::size_t>(target.surfels.size(), 1));
     constexpr double noticeable = 0.05;
     if (share < noticeable)
         return {};
-    return fmt::format("{:.0f} % of the vertices lie on other faces, where occlusion is discontinuous: weld the mesh, "
-                       "or move it away from what it touches",
-                       100.0 * share);
+    return fmt::format(
+        "{:.0f} % of the vertices touch other faces, where occlusion changes abruptly: weld the mesh, or "
+        "use --method exact",
+        100.0 * share);
 }
 
 }
@@ -108,18 +67,9 @@ std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const 
     if (rmse <= large_rmse || !warnings.empty())
         return warnings;
     const std::string measured = fmt::format("{} has an RMSE of {:.2g} here: ", method.name, rmse);
-    if (target.radius < 10.0f * Exact::offset) {
-        warnings.push_back(fmt::format("{}the radius is close to the offset of {:.3g} at which rays start: use a "
-                                       "radius of {:.3g} or more",
-                                       measured, double(Exact::offset) * target.frame.diagonal,
-                                       10.0 * double(Exact::offset) * target.frame.diagonal));
-        return warnings;
-    }
-    std::string cause = task.from_file_normals ? flipped_normals_warning(target) : "";
-    if (cause.empty() && method.needs_grid)
-        cause = thin_walls_warning(target, occluders);
+    std::string cause = method.needs_grid ? thin_walls_warning(target, occluders) : "";
     if (cause.empty())
-        cause = contact_warning(target, occluders.rays());
+        cause = contact_warning(target);
     if (cause.empty() && task.error) // the caller says that the error is missed
         return warnings;
     if (cause.empty())
@@ -180,6 +130,7 @@ std::string coarse_faces_warning(const BakeTarget& target, std::span<const float
     }
     if (points.empty())
         return {};
+    find_contacts(points, rays, ray_offset(target.radius));
     const std::vector<float> exact = evaluate_ao(points, rays, Exact{.radius = target.radius, .rays = 64});
     double squares = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -24,7 +24,7 @@ VoxelizeOptions options_of_part(const VoxelizeOptions& whole, float scale) {
 }
 
 bool has_area(const BakeTarget& target) {
-    const std::vector<Vec3> normals = area_weighted_normals(target.mesh, target.triangles);
+    const std::vector<Vec3> normals = angle_weighted_normals(target.mesh, target.triangles);
     return std::any_of(normals.begin(), normals.end(), [](const Vec3& n) { return n != Vec3(0.0f); });
 }
 
@@ -122,6 +122,7 @@ TargetResult bake_parts(const BakeTarget& whole, const BakeTask& task, NormalSou
         if (!has_area(target))
             continue;
         target.surfels = make_surfels(mesh, target.triangles, frame, normals);
+        target.share = static_cast<double>(target.surfels.size()) / all;
         target.occluder_voxel = double(whole.voxelizing.grid.voxel) * whole.frame.diagonal;
         constexpr std::size_t min_surfels = 64;
         target.pilot_share.surfels =

@@ -20,8 +20,8 @@ constexpr int share_of_first_trial = 3, min_rays_of_trial = 4;
 // Standard deviation of log(measured / expected error) on meshes that the table was not measured on.
 constexpr double spread = 0.3;
 
-// With Via::grid, exact is planned only if the field costs more by both this factor and this many seconds.
-constexpr double allowed_ratio = 1.5, allowed_seconds = 0.3;
+// With Via::grid, exact is planned only if the field costs more by this factor, and by PlanRequest::allowed_seconds.
+constexpr double allowed_ratio = 1.5;
 
 /// The probability that a plan with the expected error `rmse` meets `error`.
 double chance(double rmse, double error) {
@@ -53,6 +53,11 @@ double tree_seconds(const PlanRequest& request) {
     return plan_table::tree_seconds_per_triangle * static_cast<double>(request.triangles);
 }
 
+/// Whether occlusion within the radius happens inside voxels.
+bool is_too_coarse(const PlanRequest& request) {
+    return !request.method && 2.0f * chosen_voxel(request.radius, GridOptions{}.largest_voxel) > request.radius;
+}
+
 double grid_seconds(const PlanRequest& request, float largest_voxel) {
     const double voxel = chosen_voxel(request.radius, largest_voxel);
     const double voxelized = triangles_voxelized(request.area, request.triangles, voxel, {.cluster = true});
@@ -65,7 +70,8 @@ double grid_seconds(const PlanRequest& request, float largest_voxel) {
 }
 
 Planner::Planner(const PlanRequest& request, const Pilot& pilot)
-    : error_(request.error), avoids_exact_(request.via == Via::grid && !request.method) {
+    : error_(request.error), avoids_exact_(request.via == Via::grid && !request.method),
+      allowed_seconds_(request.allowed_seconds), too_coarse_(is_too_coarse(request)) {
     const int rays = pilot.rays_for(request.error, request.seed);
     const bool only_exact = request.method ? request.method == &find_method("exact") : request.via == Via::mesh;
     if (!request.method || only_exact)
@@ -87,9 +93,9 @@ void Planner::add_exact(const PlanRequest& request, int rays) {
 /// a wanted channel.
 void Planner::add(const PlanRequest& request, Plan plan, double seconds_per_surfel, bool is_bound) {
     const Method& method = *plan.choice.method;
-    const bool is_possible = request.has_grid
-                                 ? plan.largest_voxel == GridOptions{}.largest_voxel
-                                 : chosen_voxel(request.radius, plan.largest_voxel) >= request.finest_voxel;
+    const float voxel = chosen_voxel(request.radius, plan.largest_voxel);
+    const bool is_possible = request.has_grid ? plan.largest_voxel == GridOptions{}.largest_voxel
+                                              : voxel >= request.finest_voxel && !is_too_coarse(request);
     if (!is_possible || !(request.wanted & Exact::gives).without(method.gives).empty())
         return;
     const double grid = request.has_grid ? 0.0 : grid_seconds(request, plan.largest_voxel);
@@ -160,8 +166,9 @@ Plan Planner::expected() const {
         return plan;
     };
     if (!best && !fallback_.empty())
-        return exact(candidates_.empty() ? "no grid fits in memory"
-                                         : "guided missed the error target with as many rays as exact needs");
+        return exact(!candidates_.empty() ? "guided missed the error target with as many rays as exact needs"
+                     : too_coarse_        ? "the finest voxel is larger than half the radius"
+                                          : "no grid fits in memory");
     if (!best && candidates_.empty())
         throw LimitError("no grid for the named method fits in memory: leave out --method, or use --via mesh");
     if (!best) // the named method cannot meet the error: take its most accurate candidate
@@ -170,7 +177,7 @@ Plan Planner::expected() const {
         });
     if (avoids_exact_ && !fallback_.empty() && best->plan.largest_voxel > 0.0f) {
         const double field = spent_ + best->plan.seconds, rays = fallback_.front().plan.seconds;
-        if (field > allowed_ratio * rays && field > rays + allowed_seconds)
+        if (field > allowed_ratio * rays && field > rays + allowed_seconds_)
             return exact(fmt::format("the field would cost about {:.2g} s, exact rays {:.2g} s", field, rays));
     }
     return best->plan;

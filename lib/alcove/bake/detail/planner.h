@@ -20,6 +20,8 @@ struct PlanRequest {
     double area = 0.0; ///< of the triangles, unit space
     /// The finest voxel of a grid that fits in memory, unit space, from finest_voxel() in grid/detail/plan.h.
     double finest_voxel = 0.0;
+    /// With Via::grid, exact is planned if the field costs half as much again, and this many seconds more.
+    double allowed_seconds = 0.3;
     bool has_grid = false; ///< a grid with the default GridOptions::largest_voxel exists anyway, at no extra cost
     ChannelSet wanted = Channel::ao;
 };
@@ -78,6 +80,8 @@ class Planner {
     double error_;
     double spent_ = 0.0; ///< predicted seconds of what was tried in vain
     bool avoids_exact_;
+    double allowed_seconds_;
+    bool too_coarse_;                   // no voxel resolves the radius
     std::vector<Candidate> candidates_; // methods that use the field
     std::vector<Candidate> fallback_;   // exact, if allowed; with Via::grid a last resort
 };

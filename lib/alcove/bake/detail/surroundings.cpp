@@ -27,9 +27,10 @@ Surroundings::Surroundings(const BakeOptions& options, const Mesh& mesh, const F
     if (options.ground) {
         const Vec3d up = glm::normalize(options.up);
         double lowest = std::numeric_limits<double>::infinity();
-        for (const Vec3d& p : mesh.positions)
-            if (is_finite(p))
-                lowest = std::min(lowest, glm::dot(up, p));
+        const std::vector<std::uint8_t> used = mesh.used_vertices();
+        for (std::size_t v = 0; v < used.size(); ++v)
+            if (used[v] && is_finite(mesh.positions[v]))
+                lowest = std::min(lowest, glm::dot(up, mesh.positions[v]));
         if (std::isfinite(lowest))
             ground_ = Ground{up, lowest};
     }

@@ -23,7 +23,7 @@ struct Occludee {
 class Surroundings {
   public:
     /// Keeps the parts of the occluders that are near enough to occlude. The ground is the plane through the lowest
-    /// vertex of `mesh`. `radius` is in the unit space of `frame`. Appends to the warnings.
+    /// vertex that a face of `mesh` uses. `radius` is in the unit space of `frame`. Appends to the warnings.
     Surroundings(const BakeOptions& options, const Mesh& mesh, const Frame& frame, float radius,
                  std::vector<std::string>& warnings);
 

@@ -76,11 +76,12 @@ void check_time(const Deadline& deadline, const Plan& plan, const PlanRequest& r
 
 class TargetBake {
   public:
-    TargetBake(const BakeTarget& target, const BakeTask& task, Surroundings& surroundings, const BakeProgress& progress)
+    TargetBake(BakeTarget& target, const BakeTask& task, Surroundings& surroundings, const BakeProgress& progress)
         : target_(target), task_(task), surroundings_(surroundings), progress_(progress),
           occluders_(target, surroundings, task.keep_grid, progress) {}
 
     TargetResult run() {
+        find_contacts();
         if (!task_.error)
             bake_with_fixed_settings();
         else if (!task_.method || is_planned(*task_.method))
@@ -99,11 +100,18 @@ class TargetBake {
                             task_.method ? ", or leave out --method to let the planner choose" : ""));
         if (task_.keep_grid)
             result_.stack = occluders_.take_stack(GridOptions{}.largest_voxel);
-        result_.seconds.grid = occluders_.seconds();
+        result_.seconds.grid += occluders_.seconds();
         return std::move(result_);
     }
 
   private:
+    void find_contacts() {
+        const RaySurface& rays = occluders_.rays();
+        Stopwatch watch;
+        alcove::find_contacts(target_.surfels, rays, ray_offset(target_.radius), target_.is_own_face);
+        result_.seconds.grid += watch.lap();
+    }
+
     static bool is_planned(const Method& method) {
         return method.needs_mesh || method.name == "calibrated"; // the cost table has these
     }
@@ -214,6 +222,7 @@ class TargetBake {
             .area = size.area,
             .finest_voxel = surroundings_.fit() ? finest_voxel(size, target_.triangles.size(), target_.voxelizing.grid)
                                                 : std::numeric_limits<double>::infinity(),
+            .allowed_seconds = PlanRequest{}.allowed_seconds * target_.share,
             .has_grid = has_grid,
             .wanted = task_.attributes};
         Planner planner(request, pilot);
@@ -301,7 +310,7 @@ class TargetBake {
             result_.warnings.push_back(std::move(warning));
     }
 
-    const BakeTarget& target_;
+    BakeTarget& target_;
     const BakeTask& task_;
     Surroundings& surroundings_;
     const BakeProgress& progress_;
@@ -314,7 +323,7 @@ class TargetBake {
 
 }
 
-TargetResult bake_target(const BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
+TargetResult bake_target(BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
                          const BakeProgress& progress) {
     return TargetBake(target, task, surroundings, progress).run();
 }

@@ -6,6 +6,7 @@
 #include "alcove/bake/detail/pilot.h"
 #include "alcove/bake/detail/surroundings.h"
 #include "alcove/occlusion/catalog.h"
+#include "alcove/occlusion/detail/contacts.h"
 
 namespace alcove {
 
@@ -19,7 +20,6 @@ struct BakeTask {
     std::uint32_t seed = 0;
     bool pilot = true;
     bool keep_grid = false;
-    bool from_file_normals = false; ///< the normals of the surfels come from the file
     Deadline deadline{std::nullopt};
 };
 
@@ -34,6 +34,8 @@ struct BakeTarget {
     /// Voxel of the grids of occluders, scene units; 0: chosen; empty: the voxel of the target's own grid.
     std::optional<double> occluder_voxel{};
     PilotOptions pilot_share{}; ///< only `surfels` is used: the maximum for the pilot of this target
+    double share = 1.0;         ///< of the surfels of the whole bake
+    IsOwnFace is_own_face = uses_vertex;
 };
 
 struct TargetResult {
@@ -48,8 +50,8 @@ struct TargetResult {
 };
 
 /// Bakes with the method of the task or with the cheapest plan. If the pilot measures an RMSE above the one to meet,
-/// plans and bakes again. \throw as bake()
-TargetResult bake_target(const BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
+/// plans and bakes again. Finds the contacts of the surfels. \throw as bake()
+TargetResult bake_target(BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
                          const BakeProgress& progress);
 
 }

@@ -21,12 +21,6 @@ class Pseudonormals {
     double side(std::size_t triangle, const Vec3d& p) const;
 
   private:
-    struct Nearest {
-        Vec3d offset; // from the closest point to the query
-        int feature;  // 0..2 a corner, 3..5 the edge from corner feature − 3 to the next, 6 the face
-    };
-    /// Closest point on a triangle (Ericson 2005).
-    Nearest nearest(std::size_t triangle, const Vec3d& p) const;
     void weight_normals();
 
     std::span<const Vec3d> positions_;

@@ -15,6 +15,8 @@ namespace {
 
 // A part is buried if less than this share of it bounds the solid.
 constexpr double min_bounding = 0.05;
+// Walls around regions of negative winding numbers would vanish from a solid.
+constexpr double max_in_air = 0.01;
 
 void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
     if (surface.flipped_edges > 0)
@@ -97,7 +99,9 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
         return Sign::solid;
     if (!shape.closed() || leaking > 0.0)
         return Sign::sheet;
-    return overlapping && buries_a_part(columns, positions, triangles) ? Sign::sheet : Sign::solid;
+    if (!overlapping)
+        return Sign::solid;
+    return columns.in_air() > max_in_air || buries_a_part(columns, positions, triangles) ? Sign::sheet : Sign::solid;
 }
 
 }

@@ -187,6 +187,19 @@ bool WindingColumns::hollow() const {
     return !found && !crossings_.empty();
 }
 
+double WindingColumns::in_air() const {
+    std::size_t found = 0;
+    for_each_column([&](std::span<const Crossing> column) {
+        int winding = 0;
+        for (const Crossing& c : column) {
+            const int before = winding;
+            winding += c.turn;
+            found += before < 1 && winding < 1;
+        }
+    });
+    return crossings_.empty() ? 0.0 : static_cast<double>(found) / static_cast<double>(crossings_.size());
+}
+
 void WindingColumns::for_each_crossing(const std::function<void(std::uint32_t, bool)>& visit) const {
     for_each_column([&](std::span<const Crossing> column) {
         int winding = 0;

@@ -22,6 +22,10 @@ float variance_of(float open) {
     return p * (1.0f - p);
 }
 
+bool is_same(const Surfel& a, const Surfel& b) {
+    return a.position == b.position && a.normal == b.normal && a.away == b.away && a.covered == b.covered;
+}
+
 /// The weight of a surfel's own rays against the filtered value (James and Stein 1961): 0 if noise explains the
 /// variance among the neighbours. Twice the noise, because that variance is itself an estimate.
 float own_weight(float variance, float noise) {
@@ -39,7 +43,7 @@ JointBilateral::JointBilateral(std::span<const Surfel> surfels, std::span<const 
     reserve_huge(surfels_, order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Surfel& surfel = surfels[order[i]];
-        if (surfels_.empty() || surfel.position != surfels_.back().position || surfel.normal != surfels_.back().normal)
+        if (surfels_.empty() || !is_same(surfel, surfels_.back()))
             surfels_.push_back(surfel);
         index_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
     }
@@ -61,12 +65,13 @@ JointBilateral::JointBilateral(std::span<const Surfel> surfels, std::span<const 
 void JointBilateral::probe(const AnyField& field, std::size_t begin, std::size_t end) {
     // Beyond one diagonal from the mesh, probes carry no information.
     const float radius = std::min(guided_.radius, 1.0f);
+    const float lift = start_height(field, radius);
     SurfelBatch batch;
     CalibratedInputs<TenProbes> inputs{};
     for (std::size_t at = begin; at < end; at += batch.count) {
         batch.count = 0;
         for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
-            batch.push_back(surfels_[i]);
+            batch.push_back(surfels_[i], lift);
         calibrated_inputs<TenProbes>(field, batch, radius, inputs);
         const SurfelBatch::Values calibrated = calibrated_table::ten_probes(inputs);
         for (std::size_t k = 0; k < Curve::probes; ++k)
@@ -93,8 +98,10 @@ void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::si
         batch.count = 0;
     };
     for (std::size_t i = begin; i < end; ++i) {
+        if (surfels_[i].covered)
+            continue;
         const Basis basis(surfels_[i].normal);
-        const Vec3 origin = surfels_[i].position + Exact::offset * basis.normal;
+        const Vec3 origin = surfels_[i].origin(ray_offset(guided_.radius));
         const CosineLattice::Shift shift(recurrence_point(i, guided_.seed));
         for (int r = 0; r < guided_.rays; ++r) {
             owner[batch.count] = static_cast<std::uint32_t>(i);
@@ -130,6 +137,8 @@ void JointBilateral::fit_model() {
 }
 
 JointBilateral::Filtered JointBilateral::filter(std::size_t i) const {
+    if (surfels_[i].covered)
+        return {0.0f, Vec3(0.0f)};
     const std::size_t first = std::min(i - std::min(i, Curve::window / 2), padded_ - Curve::window);
     std::array<float, Curve::window> weights;
     weigh(curve(), i, first, reach(i), weights.data());

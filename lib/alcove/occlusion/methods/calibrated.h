@@ -3,6 +3,7 @@
 
 #include "alcove/occlusion/detail/parameter.h"
 #include "alcove/occlusion/methods/calibrated_table.h"
+#include "alcove/occlusion/methods/traced.h"
 
 namespace alcove {
 
@@ -12,7 +13,8 @@ namespace alcove {
 ///
 /// with coefficients fitted once to the reference AO of many meshes, at radii from 2 to 50 % of D. The meshes, and
 /// the error on meshes it was not fitted to, are in docs/calibrated.md. All x are 0 over a plane, where ao is 1 by
-/// construction, and independent of scale. The rings of tilted probes are in the surfel's own frame. Source: probes
+/// construction, and independent of scale. The rings of tilted probes are in the surfel's own frame. The network was
+/// not fitted to surfels that touch other faces: these get 32 rays, as in Traced. Source: probes
 /// along the normal (Evans 2006); fitted by fit/fit_calibrated.cpp. Cost: 10 or 24 map() calls per surfel.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
@@ -40,9 +42,29 @@ struct Calibrated {
             estimate<TenProbes>(field, surfels, calibrated_table::ten_probes, out[Channel::ao]);
         else
             estimate<TwentyFourProbes>(field, surfels, calibrated_table::twenty_four_probes, out[Channel::ao]);
+        trace_contacts(field, surfels, out[Channel::ao]);
     }
 
   private:
+    template <Field F>
+    void trace_contacts(const F& field, const SurfelBatch& surfels, float* ao) const {
+        SurfelBatch touching;
+        std::array<std::uint8_t, SurfelBatch::capacity> owner;
+        for (std::size_t i = 0; i < surfels.count; ++i)
+            if (surfels.touches(i)) {
+                owner[touching.count] = static_cast<std::uint8_t>(i);
+                touching.push_back({surfels.position(i), surfels.normal(i), surfels.away(i)});
+            }
+        if (touching.count == 0)
+            return;
+        SurfelBatch::Values values;
+        Outputs out;
+        out[Channel::ao] = values.data();
+        Traced{.radius = radius, .rays = 32}(field, touching, out);
+        for (std::size_t k = 0; k < touching.count; ++k)
+            ao[owner[k]] = values[k];
+    }
+
     template <class Probes, Field F, class N>
     void estimate(const F& field, const SurfelBatch& surfels, const N& network, float* ao) const {
         CalibratedInputs<Probes> inputs{};

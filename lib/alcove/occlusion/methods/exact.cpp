@@ -24,7 +24,7 @@ void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, co
     };
     for (std::size_t i = 0; i < surfels.count; ++i) {
         const Basis basis(surfels.normal(i));
-        const Vec3 origin = surfels.position(i) + offset * basis.normal;
+        const Vec3 origin = surfels.origin(i, ray_offset(radius));
         const CosineLattice::Shift shift(hash(surfels.position(i), seed));
         for (int r = 0; r < rays; ++r) {
             owner[batch.count] = static_cast<std::uint8_t>(i);

@@ -42,10 +42,10 @@ struct Thickness {
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const {
         const Inverted<F> inside{field};
-        SurfelBatch turned = surfels;
+        SurfelBatch turned;
         for (std::size_t i = 0; i < surfels.count; ++i)
-            turned.nx[i] = -surfels.nx[i], turned.ny[i] = -surfels.ny[i], turned.nz[i] = -surfels.nz[i];
-        const float voxel = resolution(field), clearance = std::max(0.1f * voxel, 1e-4f);
+            turned.push_back({surfels.position(i), -surfels.normal(i)});
+        const float voxel = resolution(field), clearance = start_height(field, radius);
         SurfelBatch::Values depths;
         TraceOptions options;
         options.far = longest_ray(field, radius);

@@ -11,7 +11,7 @@
 
 namespace alcove {
 
-/// Finds start heights for rays along the normals: where the field is at least `clearance`, but at most `highest`.
+/// Finds start heights for rays, see Surfel::origin(): where the field is at least `clearance`, but at most `highest`.
 /// A surfel is on the true surface, not on the interpolated surface of the grid, and the normal at a sharp edge
 /// leaves its faces slowly. A fixed height that is safe for all surfels (a voxel) would be the largest error of
 /// tracing through a grid; these heights are a tenth of that. Cost: 1 to 6 map() calls per surfel.
@@ -25,7 +25,7 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
     std::fill_n(heights, count, clearance);
     for (int step = 0; step < 6 && count > 0; ++step) {
         for (std::size_t k = 0; k < count; ++k)
-            probes.set(k, surfels.position(low[k]) + heights[low[k]] * surfels.normal(low[k]));
+            probes.set(k, surfels.origin(low[k], heights[low[k]]));
         map_probes(field, probes, count, highest, distances.data());
         std::size_t left = 0;
         for (std::size_t k = 0; k < count; ++k) {
@@ -54,8 +54,8 @@ float longest_ray(const F& field, float radius) {
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
 /// V = 0 if the ray hits the surface within the radius, else 1. The bent normal is the normalised mean of the open
-/// directions, weighted by cos θ in both forms. Rays start where the field is a tenth of a voxel, or 1e-4 in exact
-/// fields. Source: lecture notes (aolecture). Cost: 1 to 6, plus rays × 5–20, map() calls per surfel.
+/// directions, weighted by cos θ in both forms. Rays start where the field is a tenth of a voxel, or the
+/// ray_offset() in exact fields. Source: lecture notes (aolecture). Cost: 1 to 6, plus rays × 5–20, map() calls per surfel.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< per surfel, >= 1
@@ -85,9 +85,7 @@ struct Traced {
 
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const {
-        // A tenth of a voxel on grids; Exact::offset, as in the reference, in exact fields.
-        const float voxel = resolution(field);
-        const float clearance = std::max(0.1f * voxel, 1e-4f);
+        const float voxel = resolution(field), clearance = start_height(field, radius);
         TraceOptions options;
         options.far = longest_ray(field, radius);
         options.hit_distance = 0.05f * clearance;
@@ -112,7 +110,7 @@ struct Traced {
         };
         for (std::size_t i = 0; i < surfels.count; ++i) {
             const Basis basis(surfels.normal(i));
-            const Vec3 origin = surfels.position(i) + heights[i] * basis.normal;
+            const Vec3 origin = surfels.origin(i, heights[i]);
             const std::uint32_t h = hash(surfels.position(i), seed);
             const float shift_u = unit_interval(h), shift_v = unit_interval(hash(h));
             for (int r = 0; r < rays; ++r) {

@@ -30,6 +30,7 @@ struct Hits {
     std::vector<float> depths;     ///< along the view axis, scene units
     std::vector<ObjectId> objects; ///< no_object if the ray missed
     std::vector<float> painted;    ///< in [0, 1]; empty if nothing is painted
+    std::vector<Triangle> faces;   ///< of the mesh; empty without one, all corners 0 where snap() found none
     std::vector<float> steps;      ///< map() calls along each ray; empty if not requested
 
     void resize(std::size_t samples, bool with_steps) {

@@ -78,6 +78,7 @@ class Snapper {
             const Vec3 toward = back ? -normal : away > 0.0f ? normal - 2.0f * away * direction : normal;
             surfel.normal = toward / length;
         }
+        hits_.faces[sample] = places_[i].vertices;
         if (!hits_.painted.empty())
             hits_.painted[sample] = interpolated(renderable_.mesh->painted, places_[i]);
     }

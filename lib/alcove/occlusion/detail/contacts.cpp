@@ -1,0 +1,147 @@
+#include "alcove/occlusion/detail/contacts.h"
+
+#include "alcove/base/parallel.h"
+#include "alcove/field/detail/trace.h"
+#include "alcove/base/detail/closest_point.h"
+#include "alcove/occlusion/detail/touching_faces.h"
+#include "alcove/occlusion/estimator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace alcove {
+namespace {
+
+/// Whether a point lies in a solid, as the faces that a ray crosses say: more of them from behind than from the front.
+bool is_inside(const RaySurface& surface, const Vec3& point, const Vec3& direction, float offset) {
+    constexpr int most_hits = 256;
+    std::array<SurfaceHit, RayBatch::capacity> hits;
+    std::vector<Triangle> near;
+    int outward = 0;
+    float from = 0.0f;
+    for (int i = 0; i < most_hits; ++i) {
+        RayBatch ray;
+        ray.push_back({point, direction}, from);
+        surface.find_nearest(ray, std::numeric_limits<float>::infinity(), hits);
+        if (!ray.hit[0])
+            return outward > 0;
+        const float at = ray.travelled[0];
+        // Faces may coincide, and a ray finds only one of them.
+        surface.find_near(point + at * direction, offset, near);
+        for (const Triangle& t : near) {
+            const Vec3d a(surface.position(t[0])), b(surface.position(t[1])), c(surface.position(t[2]));
+            const Vec3d normal = glm::cross(b - a, c - a), d(direction), p(point);
+            const auto side = [&](const Vec3d& u, const Vec3d& v) { return glm::dot(glm::cross(u - p, v - p), d); };
+            const double s = side(a, b), along = glm::dot(normal, d);
+            if (along == 0.0 || s * side(b, c) <= 0.0 || s * side(c, a) <= 0.0)
+                continue;
+            const double distance = glm::dot(normal, a - p) / along;
+            if (distance > double(from) && std::fabs(distance - double(at)) <= double(offset))
+                outward += along > 0.0 ? 1 : -1;
+        }
+        from = at + offset;
+    }
+    return false;
+}
+
+/// Finds the contacts of single surfels.
+class ContactSearch {
+  public:
+    ContactSearch(const RaySurface& surface, float offset, const IsOwnFace& is_own)
+        : surface_(surface), offset_(offset), is_own_(is_own) {}
+
+    void set_contact(std::size_t i, Surfel& surfel) {
+        surface_.find_near(surfel.position, offset_, near_);
+        own_.clear();
+        others_.clear();
+        for (const Triangle& t : near_)
+            if (is_own_ && is_own_(i, t))
+                own_.push_back(t);
+            else if (may_touch(t, surfel.position))
+                others_.push_back(t);
+        if (others_.empty())
+            return;
+        sort_out_faces(surfel);
+        if (own_faces_.empty() || other_faces_.empty())
+            return;
+        const Contact contact = contact_of(surfel.normal, own_faces_, other_faces_, double(offset_),
+                                           [&] { return between_solids(surfel); });
+        surfel.away = contact.away;
+        surfel.covered = contact.covered;
+    }
+
+  private:
+    /// Whether the point is in the bounding box of the triangle, grown by the offset.
+    bool may_touch(const Triangle& t, const Vec3& p) const {
+        const Vec3 a = surface_.position(t[0]), b = surface_.position(t[1]), c = surface_.position(t[2]);
+        const Vec3 low = glm::min(glm::min(a, b), c) - offset_, high = glm::max(glm::max(a, b), c) + offset_;
+        return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
+    }
+
+    /// Own faces, and the others that the surfel touches.
+    void sort_out_faces(const Surfel& surfel) {
+        own_faces_.clear();
+        other_faces_.clear();
+        std::sort(others_.begin(), others_.end()); // the tree has them in any order
+        for (const Triangle& t : own_)
+            add_face(t, surfel, own_faces_);
+        const bool by_normal = own_faces_.empty();
+        for (const Triangle& t : others_) {
+            if (!add_face(t, surfel, other_faces_))
+                continue;
+            const NearFace& face = other_faces_.back();
+            const auto& c = face.corners;
+            if (glm::length(closest_on_triangle(c[0], c[1], c[2], Vec3d(0.0)).offset) > double(offset_)) {
+                other_faces_.pop_back();
+            } else if (by_normal && 2.0 * glm::dot(face.normal, Vec3d(surfel.normal)) > 1.0) {
+                own_faces_.push_back(face);
+                other_faces_.pop_back();
+            }
+        }
+    }
+
+    /// \return false for triangles without area.
+    bool add_face(const Triangle& t, const Surfel& surfel, std::vector<NearFace>& faces) const {
+        NearFace face;
+        for (std::size_t k = 0; k < 3; ++k)
+            face.corners[k] = Vec3d(surface_.position(t[k])) - Vec3d(surfel.position);
+        const Vec3d cross = glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+        const double length = glm::length(cross);
+        if (length == 0.0)
+            return false;
+        face.normal = cross / length;
+        faces.push_back(face);
+        return true;
+    }
+
+    bool between_solids(const Surfel& surfel) const {
+        // Off the normal, so that rays do not run along edges.
+        const Vec3 up = glm::normalize(surfel.normal + Vec3(0.0123f, 0.0311f, 0.0217f));
+        const float start = 2.0f * offset_;
+        return is_inside(surface_, surfel.position + start * up, up, offset_) &&
+               is_inside(surface_, surfel.position - start * up, -up, offset_);
+    }
+
+    const RaySurface& surface_;
+    float offset_;
+    const IsOwnFace& is_own_;
+    std::vector<Triangle> near_, own_, others_;
+    std::vector<NearFace> own_faces_, other_faces_;
+};
+
+}
+
+void find_contacts(std::span<Surfel> surfels, const RaySurface& surface, float offset, const IsOwnFace& is_own) {
+    constexpr std::size_t grain = 1024;
+    const std::vector<std::uint32_t> order = spatial_order(surfels);
+    parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
+        ContactSearch search(surface, offset, is_own);
+        for (std::size_t at = begin; at < end; ++at)
+            search.set_contact(order[at], surfels[order[at]]);
+    });
+}
+
+}

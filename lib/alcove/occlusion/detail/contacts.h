@@ -1,0 +1,25 @@
+/// Finds the other faces that surfels touch, so that their rays start clear of them.
+#pragma once
+
+#include "alcove/occlusion/occluders.h"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+namespace alcove {
+
+/// Whether a triangle of the RaySurface is an own face of the surfel of that index.
+using IsOwnFace = std::function<bool(std::size_t surfel, const Triangle&)>;
+/// For surfels that are the vertices of the triangles.
+inline bool uses_vertex(std::size_t vertex, const Triangle& t) {
+    return t[0] == vertex || t[1] == vertex || t[2] == vertex;
+}
+
+/// Sets `away` and `covered` of all surfels that have a normal and lie within `offset` of a face that is not their own.
+/// The own faces of a surfel for which `is_own` names none, or without `is_own`, are those that it touches and whose
+/// normals are within 60° of its own. The result depends neither on the number of threads nor on the order of the
+/// surfels. Cost: about 0.4 µs per surfel.
+void find_contacts(std::span<Surfel> surfels, const RaySurface& surface, float offset, const IsOwnFace& is_own = {});
+
+}

@@ -1,0 +1,36 @@
+/// Where a surfel lies among the faces that it touches.
+#pragma once
+
+#include "alcove/base/types.h"
+
+#include <array>
+#include <functional>
+#include <span>
+
+namespace alcove {
+
+/// A triangle with an area, relative to the position of a surfel.
+struct NearFace {
+    std::array<Vec3d, 3> corners;
+    Vec3d normal; ///< unit length
+};
+
+/// As the members of Surfel.
+struct Contact {
+    Vec3 away{0.0f};
+    bool covered = false;
+};
+
+/// The contact of a surfel with `others`, faces within `offset` of it that are not its `own`.
+///
+/// Another face counts if the surfel's hemisphere can see it, and if it neither lies in the plane of all own faces nor
+/// continues them across a split vertex. `away` gets its normal, toward the side of the own faces, or the front of the
+/// face if they lie on both sides; faces in one plane count once.
+///
+/// The surfel is covered if it lies inside a union of faces in the plane of all own faces that face against them.
+/// Exact duplicates of own faces count there only if `between_solids()`: the two sides of a leaf card do not cover
+/// each other.
+Contact contact_of(const Vec3& normal, std::span<const NearFace> own, std::span<const NearFace> others, double offset,
+                   const std::function<bool()>& between_solids);
+
+}
