@@ -167,6 +167,39 @@ TEST(Bake, WarnsOfFilesNormalsThatFaceAgainstTheirFaces) {
         << baked.warnings.front();
 }
 
+bool warns_of(const Baked& baked, const std::string& text) {
+    return std::any_of(baked.warnings.begin(), baked.warnings.end(),
+                       [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
+TEST(Bake, AFarVertexThatNoFaceUsesChangesNothing) {
+    Mesh mesh = sphere_mesh(3);
+    add_part(mesh, sphere_mesh(3), 0.7, {1.9, 0.3, 0.2});
+    Mesh more = mesh;
+    more.positions.insert(more.positions.begin(), {1e6, -1e6, 5e5});
+    for (std::uint32_t& v : more.corners)
+        ++v;
+    const BakeOptions options{.ground = true};
+    const Baked baked = bake(mesh, options), far = bake(more, options);
+    EXPECT_EQ(std::vector(far.ao().begin() + 1, far.ao().end()), baked.ao());
+    EXPECT_EQ(far.ao().front(), 1.0f);
+    EXPECT_EQ(far.radius, baked.radius);
+    EXPECT_TRUE(warns_of(far, "1 of 517 vertices have no normal"));
+}
+
+TEST(Bake, WarnsOfAFewFacesThatDetermineTheBoundingBox) {
+    Mesh mesh = sphere_mesh(3);
+    const auto first = static_cast<std::uint32_t>(mesh.vertex_count());
+    mesh.positions.insert(mesh.positions.end(), {{1000, 0, 0}, {1000, 1e-3, 0}, {1000, 0, 1e-3}});
+    mesh.add_face(Triangle{first, first + 1, first + 2});
+    EXPECT_FALSE(warns_of(bake(sphere_mesh(3)), "bounding box"));
+    EXPECT_FALSE(warns_of(bake(mesh, {.radius = "0.3"}), "bounding box"));
+    const Baked baked = bake(mesh);
+    EXPECT_TRUE(warns_of(baked, "1 of 513 faces, such as face 513, make the diagonal of the bounding box"))
+        << baked.warnings.size();
+    EXPECT_TRUE(warns_of(baked, "--radius 0.35"));
+}
+
 /// A floor of one quad under a box. Its corners are unoccluded, so no vertex represents the shadow under the box.
 Mesh box_over_quad() {
     Mesh mesh;

@@ -70,5 +70,25 @@ TEST(Solidity, ATinyPartThatIsOpenMakesASheet) {
     EXPECT_EQ(grid_of(together(cube(), with_faces(dust, faces))).sign, Sign::sheet);
 }
 
+/// A prism over a figure eight: its halves have winding numbers of 1 and −1, so a solid would lose one of them.
+TEST(Solidity, SurfacesThatCrossThemselvesAndEncloseRegionsFromTheBackAreSheets) {
+    const std::vector<Vec3d> loop{{-1, -1, 0}, {0, 0, 0}, {1, 1, 0}, {1, -1, 0}, {0, 0, 0}, {-1, 1, 0}};
+    Mesh eight;
+    for (const double z : {0.0, 1.0})
+        for (const Vec3d& p : loop)
+            eight.positions.push_back(p + Vec3d(0, 0, z));
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const std::uint32_t j = (i + 1) % 6;
+        eight.add_face(std::vector<std::uint32_t>{i, j, j + 6, i + 6});
+    }
+    for (const Triangle& cap : {Triangle{0, 5, 1}, {2, 4, 3}, {6, 7, 11}, {8, 9, 10}})
+        eight.add_face(cap);
+    for (const Mesh& mesh : {eight, inverted(eight)}) {
+        EXPECT_EQ(grid_of(mesh).sign, Sign::sheet);
+        EXPECT_EQ(sign_of(mesh, triangulate(mesh).triangles), Sign::sheet);
+    }
+    EXPECT_EQ(sign_of(cube(), triangulate(cube()).triangles), Sign::solid);
+}
+
 }
 }

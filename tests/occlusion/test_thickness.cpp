@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace alcove {
 namespace {
 
@@ -21,6 +23,22 @@ TEST(Thickness, OfExactShapes) {
     EXPECT_EQ(thickness(top, Cuboid{{0, 0, 0}, {1, 0.3f, 1}}, 0.5f).front(), 0.5f);
     const Vec3 n = glm::normalize(Vec3(1, 2, 3));
     EXPECT_NEAR(thickness({{0.7f * n, n}}, Sphere{{0, 0, 0}, 0.7f}, 2.0f).front(), 1.4f, 1e-3f);
+}
+
+// Against an inward normal there is no solid. Where nothing limits the ray, the thickness is the radius or twice the extent.
+TEST(Thickness, AgainstInwardNormalsAndWithoutAFarSide) {
+    const Mesh sphere = test::sphere_mesh(4);
+    const test::Voxelized ball(sphere, 0.3f, 1.0f / 64);
+    std::vector<Surfel> inward;
+    for (const Surfel& surfel : ball.surfels)
+        inward.push_back({surfel.position, -surfel.normal});
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    for (const float radius : {0.3f, infinite})
+        for (const float t : thickness(inward, ball.field, radius))
+            EXPECT_LE(t, 1.0f / 64);
+    const Plane solid{{0, 1, 0}, 0.0f};
+    EXPECT_EQ(thickness({{{0, 0, 0}, {0, 1, 0}}}, solid, 0.3f).front(), 0.3f);
+    EXPECT_EQ(thickness({{{0, 0, 0}, {0, 1, 0}}}, solid, infinite).front(), longest_ray(solid, infinite));
 }
 
 TEST(Thickness, IsOfTheFirstPlateWhereMoreStandBehind) {

@@ -1,7 +1,7 @@
 /// Computes the normals of a mesh, and its vertices as surfels.
 ///
 /// The normal of a vertex is the normalized mean of the normals of its triangles (Gouraud 1971), weighted by their
-/// angles at the vertex (Thürmer and Wüthrich 1998), which does not depend on how faces are triangulated, or by
+/// angles at the vertex (thurmer1998), which does not depend on how faces are triangulated, or by
 /// their areas. It is zero if the sum is shorter than 1e-12 of the sum of the lengths of its terms. A triangle whose
 /// sides meet at its first corner with a sine of `flat_sine` or less counts as having no area and is ignored.
 #pragma once

@@ -17,8 +17,8 @@ enum class Channel : std::uint8_t {
     ao_short,    ///< short-range visibility only, in [0, 1]
     ao_long,     ///< visibility over the full range, in [0, 1]
     convexity,   ///< in [0, 1]: 0.5 on flat surfaces, higher on convex edges, lower in concave corners
-    bent_normal, ///< mean unoccluded direction, unit length; (0, 0, 0) if no direction is open
-    thickness,   ///< distance along the reversed normal to the far side, at most the radius; field unit
+    bent_normal, ///< cosine-weighted mean of the unoccluded directions, unit length; (0, 0, 0) if none is open
+    thickness,   ///< distance along the reversed normal to the far side, at most the radius and 2 extent(); field unit
 };
 
 struct ChannelInfo {
