@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,19 @@ enum class Sign {
 /// One narrow-band level set. Index space maps to unit space by unit = origin + voxel · index.
 struct LevelSet {
     std::shared_ptr<const VdbGrid> grid;
-    float voxel = 0.0f;      ///< edge of a voxel, unit space
-    Vec3 origin{0.0f};       ///< centre of the voxel of index (0, 0, 0), unit space
+    double voxel = 0.0;      ///< edge of a voxel, unit space
+    Vec3d origin{0.0};       ///< centre of the voxel of index (0, 0, 0), unit space; may be far from the surface
     float outer_band = 0.0f; ///< width of the outer band, voxels: values within it are distances
     float inner_band = 0.0f; ///< width of the inner band, voxels; for a sheet both bands are air
     std::size_t active_voxels = 0;
     std::size_t bytes = 0; ///< memory of the grid
+};
+
+/// Points at whole multiples of `voxel` from `origin` along each axis, scene units. Grids of different meshes on the same
+/// lattice can be combined voxel by voxel.
+struct Lattice {
+    double voxel = 1.0;
+    Vec3d origin{0.0};
 };
 
 /// Levels from finest to coarsest. Copies share the grids.
@@ -43,12 +51,16 @@ struct GridStack {
     double value_unit = 1.0;
     Sign sign = Sign::solid;
     std::vector<LevelSet> levels;
+    std::optional<Lattice> lattice{};  ///< of all voxel centres, with index (0, 0, 0) at its origin; if requested
     bool clustered = false;            ///< whether GridOptions::cluster reduced the triangles
+    std::vector<std::string> sources;  ///< the grids of the file that it was read from
     std::string creator;               ///< the program that wrote the file, if read from one that names it
     std::vector<std::string> warnings; ///< messages about what was lost in voxelization or reading
 
+    /// Edge of a voxel, scene units; that of a lattice to the bit.
+    double scene_voxel(std::size_t level = 0) const;
     /// Largest distance that the last level represents, unit space.
-    float reach() const { return (levels.back().outer_band - 1.0f) * levels.back().voxel; }
+    float reach() const { return (levels.back().outer_band - 1.0f) * static_cast<float>(levels.back().voxel); }
     /// Whether the inner band of every level is as wide as the outer.
     bool knows_inside() const {
         return std::all_of(levels.begin(), levels.end(),
@@ -64,6 +76,9 @@ struct GridStack {
 
 /// The same grids in the unit space of another frame.
 GridStack reframed(GridStack stack, const Frame& frame);
+
+/// A position in unit space in double precision.
+Vec3d exact_in_unit(const Frame& frame, const Vec3d& scene);
 
 /// The largest power of two not above the diagonal.
 double value_unit_of(const Frame& frame);

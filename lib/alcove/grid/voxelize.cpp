@@ -18,21 +18,47 @@
 namespace alcove {
 namespace {
 
-/// The position of index (0, 0, 0) on all levels. All bands have positive indices, so that an OpenVDB tree has one node
-/// below its root rather than eight, each a quarter of a megabyte.
-Vec3 origin_of(const Box& box, const Frame& frame, const LevelPlan& plan) {
-    const float margin = std::ldexp(plan.voxel, plan.levels - 1) * (std::ceil(plan.outer_band) + 2.0f);
-    return frame.to_unit(box.min) - margin;
+/// Where the voxels are.
+struct Placing {
+    double voxel; ///< edge of the finest voxel, unit space
+    Vec3d origin; ///< of index (0, 0, 0) on all levels, unit space
+    Index3 first; ///< index on the finest level where the work begins: all bands have larger indices
+};
+
+/// Without a lattice, all bands have positive indices, so that an OpenVDB tree has one node below its root rather than
+/// eight, each a quarter of a megabyte.
+Placing place(const Box& box, const Frame& frame, const LevelPlan& plan, const std::optional<Lattice>& lattice) {
+    const float coarsest = std::ldexp(1.0f, plan.levels - 1), margin = coarsest * (std::ceil(plan.outer_band) + 2.0f);
+    if (!lattice)
+        return {plan.voxel, Vec3d(frame.to_unit(box.min) - plan.voxel * margin), Index3(0)};
+    Placing placing{lattice->voxel / frame.diagonal, exact_in_unit(frame, lattice->origin), Index3(0)};
+    const double step = brick_size * double(coarsest); // so that bricks of all levels begin at `first`
+    constexpr double farthest = 1 << 30;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = (box.min[axis] - lattice->origin[axis]) / lattice->voxel;
+        if (!(std::fabs(low) + std::fabs(box.max[axis] - box.min[axis]) / lattice->voxel < farthest))
+            throw InputError("the mesh is more than 2^30 voxels from the origin of the lattice: move it nearer, or use "
+                             "larger voxels");
+        placing.first[axis] = static_cast<int>(std::floor((low - margin) / step) * step);
+    }
+    return placing;
 }
 
-/// Positions in index space: voxels of the finest level.
-HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Vec3d& origin, double voxel) {
+/// Positions in voxels of the finest level.
+HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Placing& placing) {
+    const Vec3d first(placing.first);
     HugeVector<Vec3d> positions(mesh.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
-            positions[v] = ((mesh.positions[v] - frame.center) / frame.diagonal - origin) / voxel;
+            positions[v] = (exact_in_unit(frame, mesh.positions[v]) - placing.origin) / placing.voxel - first;
     });
     return positions;
+}
+
+GridOptions with_voxel_of_lattice(GridOptions options, const Frame& frame) {
+    if (options.lattice)
+        options.voxel = static_cast<float>(options.lattice->voxel / frame.diagonal);
+    return options;
 }
 
 TriangleTree tree_of(const Surface& surface) {
@@ -45,13 +71,14 @@ TriangleTree tree_of(const Surface& surface) {
 }
 
 GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options) {
-    const LevelPlan plan = plan_levels(mesh, triangles, options.grid);
     GridStack stack;
     const Box box = mesh.box();
     stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
-    const Vec3 origin = origin_of(box, stack.frame, plan);
-    const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, Vec3d(origin), plan.voxel);
+    stack.lattice = options.grid.lattice;
+    const LevelPlan plan = plan_levels(mesh, triangles, with_voxel_of_lattice(options.grid, stack.frame));
+    const Placing placing = place(box, stack.frame, plan, stack.lattice);
+    const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, placing);
     // The sign uses all triangles, distances only those that clustering keeps.
     const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
@@ -87,10 +114,10 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         normals ? Band(tree, *normals, plan.outer_band) : Band(tree, columns, {plan.outer_band, plan.inner_band});
     done(0.3);
     for (int level = 0; level < plan.levels; ++level) {
-        const float voxel = std::ldexp(plan.voxel, level);
-        LevelSet set = level_set(band, 1 << level, double(voxel) * stack.frame.diagonal / stack.value_unit,
+        const double voxel = std::ldexp(placing.voxel, level);
+        LevelSet set = level_set(band, 1 << level, voxel * stack.frame.diagonal / stack.value_unit, placing.first,
                                  level > 0 ? &stack.levels.back() : nullptr);
-        set.origin = origin;
+        set.origin = placing.origin;
         set.voxel = voxel;
         set.outer_band = plan.outer_band;
         set.inner_band = normals ? plan.outer_band : plan.inner_band;

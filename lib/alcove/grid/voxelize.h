@@ -5,6 +5,7 @@
 #include "alcove/mesh/mesh.h"
 
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace alcove {
@@ -15,6 +16,8 @@ struct GridOptions {
     /// Edge of the finest voxel, unit space. 0 chooses `largest_voxel`, or radius/8 if that is finer, but at least
     /// 1/1024.
     float voxel = 0.0f;
+    /// Sets the finest voxel instead of `voxel`, and puts all voxel centres on the lattice.
+    std::optional<Lattice> lattice{};
     /// Upper limit of a chosen voxel, unit space, > 0; the memory limit may still require a larger one.
     float largest_voxel = 1.0f / 256.0f;
     /// Outer band width of every level, voxels, at least 3. map() is correct up to one voxel less.
@@ -45,9 +48,11 @@ struct VoxelizeOptions {
 /// scene affects precision. Distances are to the nearest triangle, exact up to rounding; a point is inside a solid
 /// if the winding number is 1 or more. The tree of triangles is built once and searched on each level only where
 /// the finer level has no distance, so only the first step touches every triangle. The result does not depend on
-/// the number of threads.
+/// the number of threads. With a lattice, the voxels of the level of stride 2^n are those whose lattice indices are
+/// multiples of 2^n, so that equal levels of different meshes match.
 ///
-/// \throw InputError if no triangle has nonzero area; LimitError as plan_levels().
+/// \throw InputError if no triangle has nonzero area, or if the mesh is more than 2^30 voxels from the origin of the
+/// lattice; LimitError as plan_levels().
 GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const VoxelizeOptions& options = {});
 
 /// The sign that voxelize() chooses by default. Cost: about 10 ns per triangle. \throw LimitError as voxelize().

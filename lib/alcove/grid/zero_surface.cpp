@@ -14,10 +14,17 @@ namespace alcove {
 
 namespace {
 
-/// Meshes the zero surface of a grid; `place` maps index coordinates to positions.
+/// Meshes the zero surface of a grid; `place` maps index coordinates to positions, and turns faces over if it mirrors.
 template <class Place>
-Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& place) {
-    const auto in_index_space = grid.copyReplacingTransform(openvdb::math::Transform::createLinearTransform(1.0));
+Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& place, bool mirrors = false) {
+    // OpenVDB makes floats, which resolve little far from the origin.
+    openvdb::CoordBBox leaves;
+    const openvdb::Coord low = grid.tree().evalLeafBoundingBox(leaves)
+                                   ? leaves.min() & ~(int(openvdb::FloatTree::RootNodeType::ChildNodeType::DIM) - 1)
+                                   : openvdb::Coord(0);
+    const auto shift = openvdb::math::Transform::createLinearTransform(1.0);
+    shift->postTranslate(-low.asVec3d());
+    const auto in_index_space = grid.copyReplacingTransform(shift);
     std::vector<openvdb::Vec3s> points;
     std::vector<openvdb::Vec3I> triangles;
     std::vector<openvdb::Vec4I> quads;
@@ -27,12 +34,12 @@ Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& plac
     Mesh mesh;
     mesh.positions.reserve(points.size());
     for (const openvdb::Vec3s& p : points)
-        mesh.positions.push_back(place(Vec3d(p.x(), p.y(), p.z())));
+        mesh.positions.push_back(place(Vec3d(p.x(), p.y(), p.z()) + Vec3d(low.x(), low.y(), low.z())));
     // OpenVDB's faces point inward.
     for (const openvdb::Vec4I& q : quads)
-        mesh.add_face(std::array{q[3], q[2], q[1], q[0]});
+        mesh.add_face(mirrors ? std::array{q[0], q[1], q[2], q[3]} : std::array{q[3], q[2], q[1], q[0]});
     for (const openvdb::Vec3I& t : triangles)
-        mesh.add_face(std::array{t[2], t[1], t[0]});
+        mesh.add_face(mirrors ? std::array{t[0], t[1], t[2]} : std::array{t[2], t[1], t[0]});
     return mesh;
 }
 
@@ -44,9 +51,20 @@ Mesh mesh_zero_surface(const GridStack& stack, float adaptivity) {
                          "mesh that it was voxelized from");
     const LevelSet& finest = stack.levels.front();
     return mesh_of(*finest.grid->grid, adaptivity, [&](const Vec3d& index) {
-        const Vec3d unit = Vec3d(finest.origin) + double(finest.voxel) * index;
+        const Vec3d unit = finest.origin + finest.voxel * index;
         return unit * stack.frame.diagonal + stack.frame.center;
     });
+}
+
+Mesh mesh_zero_surface(const VdbGrid& grid) {
+    const auto map = grid.grid->transform().baseMap();
+    return mesh_of(
+        *grid.grid, 0.0f,
+        [&](const Vec3d& index) {
+            const openvdb::Vec3d at = map->applyMap({index.x, index.y, index.z});
+            return Vec3d(at.x(), at.y(), at.z());
+        },
+        map->determinant() < 0.0);
 }
 
 Mesh mesh_zero_surface(const Sampler& sample, float voxel) {
@@ -97,6 +115,9 @@ GridStack extend_levels(GridStack stack, float radius, bool inside) {
     options.grid.radius = static_cast<float>(radius * scale);
     const double voxel = replace ? stack.levels.front().voxel : 2.0 * stack.levels.back().voxel;
     options.grid.voxel = static_cast<float>(voxel * scale);
+    if (stack.lattice)
+        options.grid.lattice = {replace ? stack.lattice->voxel : stack.scene_voxel(stack.levels.size()),
+                                stack.lattice->origin};
     if (inside)
         options.grid.inner_band = options.grid.outer_band;
     options.sign = closedness(surface).closed() ? SignChoice::solid : SignChoice::sheet;

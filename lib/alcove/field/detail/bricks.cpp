@@ -35,7 +35,7 @@ void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& orig
 }
 
 Bricks::Bricks(const LevelSet& level, float value_scale)
-    : voxel_(level.voxel), usable_((level.outer_band - 1.0f) * level.voxel), origin_(level.origin) {
+    : voxel_(static_cast<float>(level.voxel)), usable_((level.outer_band - 1.0f) * voxel_), origin_(level.origin) {
     const openvdb::FloatGrid& grid = *level.grid->grid;
     std::vector<const Leaf*> leaves;
     grid.tree().getNodes(leaves);
@@ -46,10 +46,9 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
         box = openvdb::CoordBBox(Coord(0), Coord(0));
     // The surface may be up to one voxel outside the outermost leaves.
     for (int axis = 0; axis < 3; ++axis) {
-        const float low = static_cast<float>(box.min()[axis] - 1);
-        const float high = static_cast<float>(box.max()[axis] + cells);
-        bounds_.center[axis] = origin_[axis] + 0.5f * (low + high) * voxel_;
-        bounds_.half_extent[axis] = 0.5f * (high - low) * voxel_;
+        const double low = box.min()[axis] - 1.0, high = box.max()[axis] + double(cells);
+        bounds_.center[axis] = static_cast<float>(level.origin[axis] + 0.5 * (low + high) * level.voxel);
+        bounds_.half_extent[axis] = static_cast<float>(0.5 * (high - low) * level.voxel);
     }
 
     // A brick samples the leaf at its origin and the next ones along each axis. A border of one brick surrounds all.
@@ -57,7 +56,7 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
     std::size_t count = 1;
     for (int axis = 0; axis < 3; ++axis) {
         size_[axis] = (box.max()[axis] - low[axis]) / cells + 2;
-        offset_[axis] = static_cast<float>(-(double(level.origin[axis]) / level.voxel) - low[axis]);
+        offset_[axis] = static_cast<float>(-(level.origin[axis] / level.voxel) - low[axis]);
         count *= static_cast<std::size_t>(size_[axis]);
         if (count > std::size_t{1} << 28)
             throw LimitError("the grid spans more than 268 million bricks of 8³ voxels: use a coarser --voxel");

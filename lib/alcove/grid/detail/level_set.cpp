@@ -19,7 +19,12 @@ using openvdb::FloatTree;
 using Leaf = FloatTree::LeafNodeType;
 static_assert(Leaf::DIM == brick_size && Leaf::NodeMaskType::WORD_COUNT == brick_size);
 
-/// The distances of a brick, in voxels, that every second voxel of the finer level already has; infinite elsewhere.
+Coord coord(const Index3& index) {
+    return {index.x, index.y, index.z};
+}
+
+/// The distances of the brick at `low`, in voxels, that every second voxel of the finer level already has; infinite
+/// elsewhere.
 std::array<float, brick_volume> known_distances(const LevelSet* finer, const Index3& low, double value_scale) {
     std::array<float, brick_volume> known;
     known.fill(std::numeric_limits<float>::infinity());
@@ -30,7 +35,7 @@ std::array<float, brick_volume> known_distances(const LevelSet* finer, const Ind
     const double per_value = 1.0 / value_scale;
     for (int octant = 0; octant < 8; ++octant) {
         const Index3 part = half * Index3(octant >> 2, octant >> 1 & 1, octant & 1), at = 2 * (low + part);
-        const Leaf* leaf = tree.probeConstLeaf(Coord(at.x, at.y, at.z));
+        const Leaf* leaf = tree.probeConstLeaf(coord(at));
         if (!leaf)
             continue;
         const float* const values = leaf->buffer().data();
@@ -50,7 +55,7 @@ std::array<float, brick_volume> known_distances(const LevelSet* finer, const Ind
 
 }
 
-LevelSet level_set(const Band& band, int stride, double value_scale, const LevelSet* finer) {
+LevelSet level_set(const Band& band, int stride, double value_scale, const Index3& first, const LevelSet* finer) {
     const auto scaled = [&](float voxels) { return static_cast<float>(voxels * value_scale); };
     const float outside = scaled(band.width().outer), inside = scaled(-band.width().inner);
     const std::vector<BandBlock> blocks = band.blocks(stride);
@@ -58,12 +63,12 @@ LevelSet level_set(const Band& band, int stride, double value_scale, const Level
     std::vector<std::size_t> counts(blocks.size());
     parallel_for(blocks.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            const BandBrick brick = band.brick(blocks[b], stride, known_distances(finer, blocks[b].low, value_scale));
+            const Index3 low = blocks[b].low + first / stride;
+            const BandBrick brick = band.brick(blocks[b], stride, known_distances(finer, low, value_scale));
             counts[b] = brick.count;
             if (brick.count == 0)
                 continue;
-            const Index3& low = blocks[b].low;
-            auto leaf = std::make_unique<Leaf>(Coord(low.x, low.y, low.z), outside);
+            auto leaf = std::make_unique<Leaf>(coord(low), outside);
             std::transform(brick.values, brick.values + brick_volume, leaf->buffer().data(), scaled);
             auto mask = leaf->getValueMask();
             for (openvdb::Index x = 0; x < brick_size; ++x)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
+#include "alcove/mesh/mesh.h"
 
 #include <openvdb/openvdb.h>
 
@@ -11,6 +12,9 @@ namespace alcove {
 struct VdbGrid {
     openvdb::FloatGrid::Ptr grid;
 };
+
+/// The zero surface of a grid where its transform puts it, faces outward. \throw InputError if no value changes sign.
+Mesh mesh_zero_surface(const VdbGrid& grid);
 
 /// Multiplies every value and the background by `factor`; exact if that is a power of two.
 void scale_values(openvdb::FloatGrid& grid, double factor);

@@ -45,7 +45,7 @@ std::vector<Surfel> points_on_faces(const LoadedShape& loaded, const Frame& own)
 double share_without_inside(const std::vector<Surfel>& surfels, const LoadedShape& loaded, const Frame& own,
                             const AnyField& field, const Frame& frame) {
     // Less than most edges are rounded by; walls of two voxels are intact at this depth.
-    const float depth = 0.25f * loaded.stack.levels.front().voxel;
+    const float depth = 0.25f * static_cast<float>(loaded.stack.levels.front().voxel);
     const auto value = [&](const Surfel& surfel, float height) {
         return field.map(frame.to_unit(loaded.pose(own.to_scene(surfel.position + height * surfel.normal))));
     };
@@ -62,7 +62,7 @@ std::string missing_walls(const LoadedShape& loaded, const AnyField& field, cons
     constexpr double noticeable = 0.01, percent = 100.0;
     constexpr double resolved_by_floats = 1e-5; // smallest voxel, relative to the diagonal of the scene
     const Frame own = frame_of(loaded.mesh.box());
-    const float voxel = loaded.stack.levels.front().voxel;
+    const auto voxel = static_cast<float>(loaded.stack.levels.front().voxel);
     const bool resolved = double(voxel) * own.diagonal * loaded.pose.scale > resolved_by_floats * frame.diagonal;
     if (loaded.stack.sign == Sign::sheet || !resolved)
         return {};
