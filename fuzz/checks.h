@@ -45,6 +45,8 @@ void accept_refusals(std::string_view file, F&& f) {
         check_message(error.what(), file);
     } catch (const LimitError& error) {
         check_message(error.what(), file);
+    } catch (const MemoryError& error) {
+        check_message(error.what(), file);
     }
 }
 

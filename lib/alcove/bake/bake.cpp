@@ -45,26 +45,34 @@ Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
     return unit_or_zero(sum);
 }
 
-/// Detects a grid of another mesh, or of the same mesh at another position.
-void warn_of_distance(const PreparedMesh& prepared, std::vector<std::string>& warnings) {
-    GridStack finest = *prepared.grid;
-    finest.levels.resize(1);
-    const LevelStack field(finest);
+/// Detects the grid of another mesh, or of the same mesh at another position, by the vertices that faces use.
+void check_distance(GridStack grid, const PreparedMesh& prepared, std::vector<std::string>& warnings) {
+    grid.levels.resize(1);
+    const LevelStack field(grid);
     const Mesh& mesh = prepared.mesh;
-    const auto off =
-        static_cast<std::size_t>(std::count_if(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3d& p) {
-            return is_finite(p) && std::fabs(field.map(prepared.frame.to_unit(p))) > 2.0f * field.resolution();
-        }));
-    if (off > mesh.vertex_count() / 100)
-        warnings.push_back(fmt::format("{} of {} vertices are more than two voxels off the surface of the grid: is it "
-                                       "the grid of this mesh?",
-                                       grouped(off), grouped(mesh.vertex_count())));
+    std::vector<bool> used(mesh.vertex_count());
+    for (const Triangle& triangle : prepared.triangles)
+        for (const std::uint32_t corner : triangle)
+            used[corner] = true;
+    std::size_t count = 0, off = 0;
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (used[v] && is_finite(mesh.positions[v])) {
+            ++count;
+            off += std::fabs(field.map(prepared.frame.to_unit(mesh.positions[v]))) > 2.0f * field.resolution();
+        }
+    const std::string what = fmt::format("{} of {} vertices are more than two voxels off the surface of the grid",
+                                         grouped(off), grouped(count));
+    if (off > count / 2)
+        throw InputError(what + ": give the grid of this mesh, or none");
+    if (off > count / 100)
+        warnings.push_back(what + ": is it the grid of this mesh?");
 }
 
 void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<std::string>& warnings) {
     GridStack stack = reframed(*options.grid, prepared.frame);
     const bool inside = prepared.voxelizing.grid.inner_band == prepared.voxelizing.grid.outer_band;
     const float reach = stack.reach();
+    check_distance(stack, prepared, warnings);
     if (inside && !stack.knows_inside())
         warnings.emplace_back(
             "the grid does not reach far enough inside for these attributes, so it is voxelized "
@@ -75,7 +83,6 @@ void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<s
                         "computed from its surface; a band as wide as the radius avoids this",
                         reach * prepared.frame.diagonal));
     prepared.grid = extend_levels(std::move(stack), prepared.radius, inside);
-    warn_of_distance(prepared, warnings);
 }
 
 PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<std::string>& warnings) {
@@ -228,6 +235,8 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
         throw InputError(named(mesh, error.what()));
     } catch (const LimitError& error) {
         throw LimitError(named(mesh, error.what()));
+    } catch (const MemoryError& error) {
+        throw MemoryError(named(mesh, error.what()));
     } catch (const TimeLimitError& error) {
         throw TimeLimitError(named(mesh, error.what()));
     }

@@ -132,7 +132,8 @@ void check(const BakeOptions& options);
 /// Cost: at quality good, from 1 µs per vertex on dense scans to about 5 µs on small meshes, plus 50 to 100 ms for the
 /// pilot.
 /// \throw InputError as check(), or if the mesh cannot be baked: no face has an area, or NormalSource::file without
-/// normals. LimitError if the grids do not fit in memory. TimeLimitError, see BakeOptions::time_limit. Any exception of
+/// normals, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
+/// exceed the memory limit, MemoryError if the system has too little. TimeLimitError, see BakeOptions::time_limit. Any exception of
 /// BakeOptions::progress.
 Baked bake(const Mesh& mesh, const BakeOptions& options = {});
 

@@ -127,6 +127,11 @@ struct TimeLimitError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The system ran out of memory, though the request is within the limits.
+struct MemoryError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// The request is valid but too large: it exceeds the memory or the index range.
 struct LimitError : std::runtime_error {
     using std::runtime_error::runtime_error;

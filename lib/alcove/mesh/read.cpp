@@ -86,7 +86,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
     try {
         return read_bytes(FileBytes(path));
     } catch (const std::bad_alloc&) {
-        throw LimitError(path.string() + ": does not fit in memory; simplify or split the mesh");
+        throw MemoryError(path.string() + ": does not fit in memory; simplify or split the mesh");
     }
 }
 

@@ -29,7 +29,7 @@ namespace alcove {
 ///        the rest of the file, an index out of range, a token that is not a number, an early end, no faces at all,
 ///        vertices farther apart than the largest double or closer together than the smallest normal one.
 /// \throw IoError if the file cannot be read.
-/// \throw LimitError if it does not fit in memory or has 2^32 vertices or corners.
+/// \throw LimitError if it has 2^32 vertices or corners, MemoryError if the system has too little memory for it.
 Mesh read_mesh(const std::filesystem::path& file);
 
 }

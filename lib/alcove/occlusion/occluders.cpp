@@ -37,9 +37,9 @@ struct RaySurface::Scene {
 
     void check() const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-            throw LimitError(fmt::format("not enough memory for the BVH of the triangles (Embree error {}); "
-                                         "use a method without rays, or fewer triangles",
-                                         static_cast<int>(error)));
+            throw MemoryError(fmt::format("not enough memory for the BVH of the triangles (Embree error {}); "
+                                          "use a method without rays, or fewer triangles",
+                                          static_cast<int>(error)));
     }
 };
 

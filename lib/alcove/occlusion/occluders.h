@@ -29,7 +29,7 @@ struct SurfaceHit {
 class RaySurface {
   public:
     /// Positions in unit space; copies both spans. Triangles may be degenerate; those with a non-finite corner are
-    /// skipped. Cost: about 0.2 µs per triangle. \throw InputError if a corner index is out of range, LimitError
+    /// skipped. Cost: about 0.2 µs per triangle. \throw InputError if a corner index is out of range, MemoryError
     /// if memory runs out.
     RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
