@@ -1,12 +1,12 @@
 #include "bake_batch.h"
 #include "ending.h"
+#include "inputs.h"
 #include "options.h"
 
 #include "alcove/bake/bake.h"
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
-#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/detail/tessellate.h"
 #include "alcove/mesh/read.h"
 #include "alcove/vdb/vdb_file.h"
@@ -26,7 +26,7 @@ struct BakeVerb {
     BakeOptions bake;
     AddOptions add;
     MethodRequest method;
-    std::vector<std::string> inputs, occluders;
+    std::vector<std::string> inputs, occluders, grid_names;
     std::string output, grid, write_grid, tessellate;
     std::optional<Vec3d> up;
     std::optional<Quality> quality;
@@ -52,15 +52,13 @@ ChannelSet parse_attributes(const std::string& text) {
     return wanted;
 }
 
-bool is_grid(const std::string& file) {
-    return extension(file) == ".vdb";
-}
-
 /// Checks the command line before any file is read.
 void check_usage(const BakeVerb& verb) {
     const bool meshed = std::any_of(verb.inputs.begin(), verb.inputs.end(), is_grid);
     if (meshed && !verb.grid.empty())
         throw UsageError("--grid is for meshes: a .vdb input is a grid already");
+    if (!meshed && verb.grid.empty() && !verb.grid_names.empty())
+        throw UsageError("--grid-name is for grids: " + verb.inputs.front() + " is a mesh");
     if (!meshed && verb.adaptivity > 0.0f)
         throw UsageError("--adaptivity is for grids: " + verb.inputs.front() + " is a mesh already");
     if (meshed && !verb.tessellate.empty())
@@ -124,6 +122,7 @@ class BakeJob {
         seconds_["write"] = watch.lap();
         warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
         warnings_.insert(warnings_.begin(), mesh_.warnings.begin(), mesh_.warnings.end());
+        warnings_.insert(warnings_.begin(), grid_.warnings.begin(), grid_.warnings.end());
         print_warnings(warnings_, verb_.common);
         print(baked);
     }
@@ -131,17 +130,12 @@ class BakeJob {
   private:
     void read(BakeOptions& options) {
         if (is_grid(file_.input)) {
-            grid_ = read_grids(file_.input);
-            try {
-                mesh_ = mesh_zero_surface(grid_, verb_.adaptivity);
-            } catch (const InputError& error) {
-                throw InputError(file_.input + ": " + error.what());
-            }
-            mesh_.name = file_.input;
+            grid_ = read_grids(file_.input, {verb_.grid_names});
+            mesh_ = surface_of(grid_, file_.input, verb_.adaptivity);
         } else {
             mesh_ = read_mesh(file_.input);
             if (!verb_.grid.empty())
-                grid_ = read_grids(verb_.grid);
+                grid_ = read_grids(verb_.grid, {verb_.grid_names});
         }
         if (!grid_.levels.empty())
             options.grid = &grid_;
@@ -294,6 +288,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
 void add_grids(CLI::App& app, BakeVerb& verb) {
     add_grid_options(app, verb.bake.voxel, verb.bake.sign);
     app.add_option("--grid", verb.grid, "Level set of the mesh (vdb), used instead of voxelizing")->type_name("FILE");
+    add_grid_names(app, verb.grid_names);
     app.add_option("--adaptivity", verb.adaptivity,
                    "How to mesh a grid, from 0 (quads only) to 1 (large faces where the surface is flat)")
         ->check(CLI::Range(0.0, 1.0).description(""))

@@ -1,4 +1,5 @@
 #include "facts.h"
+#include "inputs.h"
 #include "options.h"
 
 #include "alcove/base/detail/messages.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
@@ -30,15 +32,35 @@ enum class Kind { mesh, grid, image };
 
 Kind kind_of(const std::string& file) {
     using namespace std::string_view_literals;
+    if (is_grid(file)) // not opened here, as it may be a pipe
+        return Kind::grid;
     std::array<char, 8> bytes{};
     std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), bytes.size());
-    if (begin == " BDV\0\0\0\0"sv || file.ends_with(".vdb"))
+    if (begin == " BDV\0\0\0\0"sv)
         return Kind::grid;
     if (begin.starts_with("\x76\x2f\x31\x01"sv) || begin == "\x89PNG\r\n\x1a\n"sv || file.ends_with(".exr") ||
         file.ends_with(".png"))
         return Kind::image;
     return Kind::mesh;
+}
+
+void add_grids(Facts& facts, const std::string& file, const GridStack& stack) {
+    auto grids = nlohmann::ordered_json::array();
+    std::vector<std::string> lines;
+    for (const StoredGrid& grid : list_grids(file)) {
+        const bool used = std::find(stack.sources.begin(), stack.sources.end(), grid.name) != stack.sources.end();
+        nlohmann::ordered_json one{{"name", grid.name}, {"type", grid.type}, {"class", grid.grid_class}};
+        one["active_voxels"] = grid.active_voxels ? nlohmann::ordered_json(*grid.active_voxels) : nullptr;
+        one["used"] = used;
+        grids.push_back(std::move(one));
+        lines.push_back(fmt::format(
+            "{}: {}, {}{}{}", in_quotes(grid.name), grid.type, grid.grid_class,
+            grid.active_voxels ? fmt::format(", {} active", grouped(static_cast<std::size_t>(*grid.active_voxels)))
+                               : "",
+            used ? "" : ", not used"));
+    }
+    facts.add("grids", grids, lines);
 }
 
 Facts facts_of_grid(const std::string& file) {
@@ -59,10 +81,12 @@ Facts facts_of_grid(const std::string& file) {
     } catch (const InputError&) {
         facts.add("box", nullptr, "none: no value changes sign, so there is no surface");
     }
+    add_grids(facts, file, stack);
     auto levels = nlohmann::ordered_json::array();
     std::vector<std::string> lines;
-    for (const LevelSet& level : stack.levels) {
-        const double voxel = level.voxel * scale;
+    for (std::size_t i = 0; i < stack.levels.size(); ++i) {
+        const LevelSet& level = stack.levels[i];
+        const double voxel = stack.scene_voxel(i);
         levels.push_back({{"voxel", voxel},
                           {"active_voxels", level.active_voxels},
                           {"bytes", level.bytes},

@@ -1,3 +1,4 @@
+#include "inputs.h"
 #include "measured_results.h"
 #include "options.h"
 
@@ -7,6 +8,7 @@
 #include "alcove/base/types.h"
 #include "alcove/measure/report.h"
 #include "alcove/mesh/read.h"
+#include "alcove/vdb/vdb_file.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -157,7 +159,8 @@ class MeasurementInputs {
     Measurement measure(const Job& job) {
         if (!last_ || last_->mesh != job.mesh) {
             mesh_.reset();
-            mesh_.emplace(*job.mesh, read_mesh(*job.mesh));
+            mesh_.emplace(*job.mesh,
+                          is_grid(*job.mesh) ? surface_of(read_grids(*job.mesh), *job.mesh) : read_mesh(*job.mesh));
         }
         const double diagonal = mesh_->frame.diagonal;
         const float radius = as_usage([&] { return job.radius->length.to_unit(diagonal); });
@@ -198,21 +201,27 @@ class MeasurementInputs {
     std::optional<MeasuredGrid> grid_;
 };
 
-/// Measures the jobs that are not in the results. Skips meshes that cannot be measured. \return their error messages.
-std::vector<std::string> measure_missing(const std::vector<Job>& jobs, MeasuredResults& results, Pictures pictures,
-                                         ProgressMode mode) {
+/// The error messages of meshes that cannot be measured, and whether one of the meshes is to blame.
+struct Failures {
+    std::vector<std::string> messages;
+    bool bad_input = false;
+};
+
+/// Measures the jobs that are not in the results. Skips meshes that cannot be measured.
+Failures measure_missing(const std::vector<Job>& jobs, MeasuredResults& results, Pictures pictures, ProgressMode mode) {
     std::vector<Job> missing;
     std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),
                  [&](const Job& job) { return results.find(job.asked) == nullptr; });
     MeasurementInputs inputs(missing, pictures, mode);
-    std::vector<std::string> failures;
+    Failures failures;
     const std::string* failed = nullptr;
     for (const Job& job : missing) {
         if (job.mesh == failed)
             continue;
         const auto fail = [&](const std::exception& error) {
             const std::string what = error.what();
-            failures.push_back(what.starts_with(*job.mesh) ? what : *job.mesh + ": " + what);
+            failures.messages.push_back(what.starts_with(*job.mesh) ? what : *job.mesh + ": " + what);
+            failures.bad_input |= dynamic_cast<const MemoryError*>(&error) == nullptr;
             failed = job.mesh;
         };
         try {
@@ -220,6 +229,8 @@ std::vector<std::string> measure_missing(const std::vector<Job>& jobs, MeasuredR
         } catch (const InputError& error) {
             fail(error);
         } catch (const LimitError& error) {
+            fail(error);
+        } catch (const MemoryError& error) {
             fail(error);
         }
     }
@@ -249,7 +260,7 @@ void run(const MeasureOptions& options) {
     if (!options.report.empty())
         const AtomicFile probe(options.report);
     MeasuredResults results(options.json);
-    const std::vector<std::string> failures = measure_missing(
+    const auto [failures, bad_input] = measure_missing(
         jobs, results, options.report.empty() ? Pictures::none : Pictures::painted, options.common.progress_mode());
 
     std::vector<Measurement> measurements;
@@ -265,7 +276,9 @@ void run(const MeasureOptions& options) {
         print(measurements);
     if (!failures.empty()) {
         print_warnings({failures.begin() + 1, failures.end()}, options.common);
-        throw InputError(failures.front());
+        if (bad_input)
+            throw InputError(failures.front());
+        throw std::runtime_error(failures.front());
     }
 }
 
@@ -274,7 +287,10 @@ void run(const MeasureOptions& options) {
 void add_measure(CLI::App& program) {
     auto* verb = program.add_subcommand("measure", "Measure the error, time and memory of estimators on meshes");
     auto options = std::make_shared<MeasureOptions>();
-    verb->add_option("input", options->inputs, "Meshes to measure on (ply, obj, off, stl)")->required();
+    verb->add_option(
+            "input", options->inputs,
+            "Meshes to measure on (ply, obj, off, stl), or level sets (vdb), whose zero surface is meshed first")
+        ->required();
     verb->add_option("--radius", options->radius,
                      "Maximum distances of occluders, separated by commas: 0.2 (scene units), 10%, inf")
         ->type_name("LEN,...")

@@ -118,6 +118,14 @@ void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& 
         ->default_str("auto");
 }
 
+void add_grid_names(CLI::App& verb, std::vector<std::string>& names) {
+    verb.add_option("--grid-name", names,
+                    "Take the level set of this name from the .vdb; repeat the option for the union of several. "
+                    "Default: all level sets")
+        ->allow_extra_args(false)
+        ->option_text("NAME");
+}
+
 CLI::Option* add_triple(CLI::App& verb, const std::string& name, std::optional<Vec3d>& value, Triple kind,
                         const std::string& description) {
     return verb

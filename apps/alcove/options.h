@@ -91,6 +91,9 @@ void add_radius_option(CLI::App& verb, Length& radius, const std::string& descri
 /// Adds --voxel (empty: auto) and --sign.
 void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign);
 
+/// Adds --grid-name.
+void add_grid_names(CLI::App& verb, std::vector<std::string>& names);
+
 /// Adds an option for three numbers, such as `1,2.5,-3`. A direction must not be 0,0,0.
 enum class Triple { point, direction };
 CLI::Option* add_triple(CLI::App& verb, const std::string& name, std::optional<Vec3d>& value, Triple kind,

@@ -105,6 +105,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     verb.add_flag("--no-ground", request.no_ground, "Leave out the plane through the lowest point");
     verb.add_flag("--no-shadow", request.no_shadow, "Sunlight casts no shadows");
     add_grid_options(verb, request.voxel, request.sign);
+    add_grid_names(verb, request.grid_names);
     add_choice<std::optional<bool>>(
         verb, "--normals", request.own_normals, {{"field", false}, {"mesh", true}},
         "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
@@ -124,6 +125,11 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
         throw UsageError(fmt::format("--voxel, --sign and --normals are for meshes: {} is a {}", request.input,
                                      described ? "scene, whose objects set them" : "grid already"));
     }
+    if (GridShape* grid = described ? nullptr : std::get_if<GridShape>(&scene.objects.front().shape))
+        grid->names = request.grid_names;
+    else if (!request.grid_names.empty())
+        throw UsageError(fmt::format("--grid-name is for grids: {} is a {}", request.input,
+                                     described ? "scene, whose objects name theirs" : "mesh"));
     if (request.no_ground)
         scene.ground.reset();
     if (request.no_shadow)

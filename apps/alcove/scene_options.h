@@ -7,6 +7,8 @@
 #include "alcove/scene/scene.h"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace alcove::cli {
 
@@ -21,6 +23,7 @@ struct SceneRequest {
     std::optional<Vec3d> eye{}, look_at{}, up{};
     std::optional<double> fov{};
     std::optional<int> pixel_samples{};
+    std::vector<std::string> grid_names{};
     bool no_ground = false, no_shadow = false;
     std::optional<bool> own_normals{};
 };

@@ -1,3 +1,4 @@
+#include "inputs.h"
 #include "options.h"
 
 #include "alcove/base/detail/memory.h"
@@ -11,23 +12,43 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <memory>
 
 namespace alcove::cli {
 namespace {
 
+constexpr const char* lattice_forms = "0.1 (scene units) or a .vdb file";
+
 struct VoxelizeVerb {
     CommonOptions common;
     Length radius = "10%";
     std::optional<Length> voxel;
+    std::string lattice; ///< a length or a grid; empty: none
     VoxelizeOptions voxelizing;
     std::string input, output;
 };
 
-GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh) {
+Length lattice_length(const std::string& text) {
+    const Length length = length_without_vx(text, lattice_forms);
+    if (length.unit != Length::Unit::scene || std::isinf(length.value))
+        throw InputError(fmt::format("takes {}, not '{}'", lattice_forms, text));
+    return length;
+}
+
+/// A length, or the lattice of the finest level set of a .vdb.
+std::optional<Lattice> lattice_of(const std::string& text) {
+    if (text.empty())
+        return {};
+    return is_grid(text) ? read_lattice(text) : Lattice{lattice_length(text).value};
+}
+
+GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh, const std::optional<Lattice>& lattice) {
     VoxelizeOptions options = verb.voxelizing;
     const double diagonal = frame_of(mesh.box()).diagonal;
-    options.grid.voxel = verb.voxel ? as_usage([&] { return verb.voxel->to_unit(diagonal); }) : 0.0f;
+    options.grid.lattice = lattice;
+    const std::optional<Length> voxel = lattice ? Length(lattice->voxel) : verb.voxel;
+    options.grid.voxel = voxel ? as_usage([&] { return voxel->to_unit(diagonal); }) : 0.0f;
     options.grid.radius = as_usage([&] { return verb.radius.to_unit(diagonal, options.grid.voxel); });
     ProgressMeter meter(verb.common.progress_mode(), "voxelizing");
     options.progress = std::ref(meter);
@@ -43,13 +64,14 @@ GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh) {
 void run(const VoxelizeVerb& verb) {
     const ThreadLimit limit(verb.common.threads);
     check_grid_output(verb.output);
-    if (!verb.voxel && verb.radius.unit == Length::Unit::voxels)
+    if (!verb.voxel && verb.lattice.empty() && verb.radius.unit == Length::Unit::voxels)
         throw UsageError("--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
+    const std::optional<Lattice> lattice = lattice_of(verb.lattice);
     nlohmann::ordered_json seconds;
     Stopwatch watch;
     const Mesh mesh = read_mesh(verb.input);
     seconds["read"] = watch.lap();
-    const GridStack stack = voxelized(verb, mesh);
+    const GridStack stack = voxelized(verb, mesh, lattice);
     seconds["grid"] = watch.lap();
     write_grids(stack, verb.output);
     seconds["write"] = watch.lap();
@@ -58,11 +80,11 @@ void run(const VoxelizeVerb& verb) {
     warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
     print_warnings(warnings, verb.common);
     nlohmann::ordered_json levels = nlohmann::ordered_json::array();
-    for (const LevelSet& level : stack.levels)
-        levels.push_back({{"voxel", level.voxel * stack.frame.diagonal},
-                          {"band", level.outer_band},
-                          {"active_voxels", level.active_voxels},
-                          {"bytes", level.bytes}});
+    for (std::size_t i = 0; i < stack.levels.size(); ++i)
+        levels.push_back({{"voxel", stack.scene_voxel(i)},
+                          {"band", stack.levels[i].outer_band},
+                          {"active_voxels", stack.levels[i].active_voxels},
+                          {"bytes", stack.levels[i].bytes}});
     if (verb.common.json)
         print_json({{"input", verb.input},
                     {"output", verb.output},
@@ -90,13 +112,26 @@ void add_voxelize(CLI::App& program) {
     add_radius_option(*app, verb->radius,
                       "Maximum distance to store; levels with doubled voxels are added until they reach it");
     add_grid_options(*app, verb->voxel, verb->voxelizing.sign);
+    app->add_option(
+           "--lattice", verb->lattice,
+           "Put voxel centres where those of other grids are, so that grids of several meshes can be combined: "
+           "at whole multiples of LEN from the origin, or on the finest voxels of a .vdb")
+        ->check(parsable([](const std::string& text) {
+            if (!is_grid(text))
+                lattice_length(text);
+        }))
+        ->excludes("--voxel")
+        ->type_name("LEN|FILE");
     app->add_option("--band", verb->voxelizing.grid.outer_band,
                     "Width of the band outside the surface on each level, in voxels")
         ->check(CLI::Range(3.0, 100.0).description(""))
         ->type_name("N")
         ->capture_default_str();
     add_common_options(*app, verb->common);
-    app->footer("Example:\n  alcove voxelize scan.ply -o scan.vdb --voxel 0.2% --radius 20%\n");
+    app->footer("Examples:\n"
+                "  alcove voxelize scan.ply -o scan.vdb --voxel 0.2% --radius 20%\n"
+                "  alcove voxelize wall.ply -o wall.vdb --lattice 0.1\n"
+                "  alcove voxelize door.ply -o door.vdb --lattice wall.vdb\n");
     app->callback([verb] { run(*verb); });
 }
 

@@ -102,9 +102,22 @@ TEST_F(BakeGrids, AGridOfAnotherFrameServesItsMesh) {
 TEST_F(BakeGrids, TheGridOfAnotherMeshIsNoticed) {
     write_sphere(1.0f / 90.0f, 0.2f);
     write("cube.off", cube_off);
-    const Outcome outcome = run({"bake", "cube.off", "-o", "a.ply", "--grid", "sphere.vdb"});
-    EXPECT_EQ(outcome.code, done);
-    EXPECT_NE(outcome.err.find("8 of 8 vertices are more than two voxels off"), std::string::npos) << outcome.err;
+    expect_refusal({"bake", "cube.off", "-o", "a.ply", "--grid", "sphere.vdb"}, bad_input,
+                   {"cube.off", "8 of 8 vertices are more than two voxels off", "give the grid of this mesh"});
+    // A few vertices may be elsewhere, and those without faces anywhere.
+    Mesh mesh;
+    add_part(mesh, sphere_mesh(4), 2.0, center_);
+    const std::size_t count = mesh.vertex_count();
+    for (std::size_t v = 0; v < count / 4; ++v)
+        mesh.positions[v] += Vec3d(0, 0, 1);
+    for (std::size_t v = 0; v < 2 * count; ++v)
+        mesh.positions.emplace_back(5, 6, 7);
+    write_mesh(mesh, folder_ / "work/bent.ply");
+    const Outcome outcome = run({"bake", "bent.ply", "-o", "a.ply", "--grid", "sphere.vdb"});
+    EXPECT_EQ(outcome.code, done) << outcome.err;
+    EXPECT_NE(outcome.err.find(" vertices are more than two voxels off the surface of the grid: is it"),
+              std::string::npos)
+        << outcome.err;
 }
 
 TEST_F(BakeGrids, RefusesWhatCannotBeMeant) {

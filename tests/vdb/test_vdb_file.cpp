@@ -5,6 +5,7 @@
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/mesh/triangulate.h"
+#include "grid_file.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -21,35 +22,7 @@ namespace {
 
 namespace io = openvdb::io;
 
-class GridFile : public testing::Test {
-  protected:
-    GridFile()
-        : folder_(std::filesystem::temp_directory_path() / ("alcove_grid_" + std::to_string(std::random_device{}()))) {
-        std::filesystem::create_directory(folder_);
-        openvdb::initialize();
-    }
-    ~GridFile() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path path(const std::string& name) const { return folder_ / name; }
-
-    void write_foreign(const openvdb::GridBase::Ptr& grid, const std::string& name, std::uint32_t compression) const {
-        io::File file(path(name).string());
-        file.setCompression(compression);
-        file.write(openvdb::GridPtrVec{grid});
-    }
-
-    std::string refusal(const std::string& name) const {
-        try {
-            read_grids(path(name));
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "read";
-    }
-
-  private:
-    std::filesystem::path folder_;
-};
+using test::GridFile;
 
 GridStack sphere_stack(double scale = 1.0, const Vec3d& move = Vec3d(0.0)) {
     Mesh mesh;
@@ -270,7 +243,13 @@ TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
     const auto fog = openvdb::FloatGrid::create(0.0f);
     fog->tree().setValue({0, 0, 0}, 1.0f);
     write_foreign(fog, "fog.vdb", 0);
-    EXPECT_NE(refusal("fog.vdb").find("no float level set"), std::string::npos);
+    EXPECT_NE(refusal("fog.vdb").find("background of 0, but outside a level set distances are positive"),
+              std::string::npos);
+    fog->setGridClass(openvdb::GRID_FOG_VOLUME);
+    fog->setName("density");
+    write_foreign(fog, "fog.vdb", 0);
+    EXPECT_NE(refusal("fog.vdb").find("no level set of floats or doubles, but 'density' (float, fog volume)"),
+              std::string::npos);
 
     const auto unsigned_distances = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
     for (auto value = unsigned_distances->beginValueAll(); value; ++value)
@@ -280,17 +259,12 @@ TEST_F(GridFile, WhatIsNoLevelSetIsRefusedInWords) {
 
     const auto vectors = openvdb::Vec3SGrid::create();
     write_foreign(vectors, "vectors.vdb", 0);
-    EXPECT_NE(refusal("vectors.vdb").find("no float grid"), std::string::npos);
+    EXPECT_NE(refusal("vectors.vdb").find("no level set of floats or doubles"), std::string::npos);
 
     const auto nan = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
     nan->tree().setValue({10, 0, 0}, NAN);
     write_foreign(nan, "nan.vdb", 0);
     EXPECT_NE(refusal("nan.vdb").find("not finite"), std::string::npos);
-
-    const auto stretched = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, {0, 0, 0}, 0.1f);
-    stretched->transform().preScale({1.0, 2.0, 1.0});
-    write_foreign(stretched, "stretched.vdb", 0);
-    EXPECT_NE(refusal("stretched.vdb").find("not axis-aligned cubes"), std::string::npos);
 }
 
 TEST_F(GridFile, AFailedWriteLeavesTheOldFile) {

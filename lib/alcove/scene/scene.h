@@ -55,6 +55,7 @@ struct MeshShape {
 /// A level set in a .vdb file.
 struct GridShape {
     std::filesystem::path file;
+    std::vector<std::string> names{}; ///< see GridSelection
 };
 struct SceneObject;
 struct CompositeShape {

@@ -162,8 +162,12 @@ class ObjectReader {
             take(mesh.painted, table.flag("painted"));
             return mesh;
         }
-        case Kind::vdb:
-            return GridShape{file_of(table, folder_)};
+        case Kind::vdb: {
+            GridShape grid{file_of(table, folder_)};
+            if (std::optional<std::string> wanted = table.text("grid"))
+                grid.names.push_back(std::move(*wanted));
+            return grid;
+        }
         case Kind::unite:
         case Kind::subtract:
             break;

@@ -2,26 +2,22 @@
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
-#include "alcove/mesh/mesh.h"
+#include "alcove/vdb/detail/archive.h"
 #include "alcove/vdb/detail/checksum.h"
-#include "alcove/vdb/detail/outliers.h"
+#include "alcove/vdb/detail/foreign.h"
+#include "alcove/vdb/detail/join.h"
+#include "alcove/vdb/detail/selection.h"
 #include "alcove/vdb/detail/structure.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/File.h>
-#include <openvdb/io/GridDescriptor.h>
-#include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
+#include <map>
 
 namespace alcove {
 namespace {
@@ -30,113 +26,16 @@ using openvdb::FloatGrid;
 namespace io = openvdb::io;
 
 constexpr const char* creator = "Alcove";
-constexpr const char* checksum_name = "alcove:checksum";
+constexpr const char *checksum_name = "alcove:checksum", *lattice_name = "alcove:lattice";
 
 std::string level_name(std::size_t level) {
     return level == 0 ? "surface" : fmt::format("surface_{}", level + 1);
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-    throw InputError(fmt::format("{}: {}", file.string(), in_one_line(what)));
-}
-
-/// Reads the float grids of a file and skips grids of other types.
-class FloatGridReader : public io::Archive {
-  public:
-    std::vector<FloatGrid::Ptr> read(std::istream& stream) {
-        readHeader(stream);
-        auto state = std::make_shared<io::StreamMetadata>();
-        io::setStreamMetadataPtr(stream, state, /*transfer=*/false);
-        setFormatVersion(stream);
-        setLibraryVersion(stream);
-        openvdb::MetaMap().readMeta(stream);
-        std::vector<FloatGrid::Ptr> grids;
-        NamedGridMap named;
-        for (std::int32_t left = readGridCount(stream); left > 0; --left) {
-            io::GridDescriptor descriptor;
-            const auto grid = openvdb::gridPtrCast<FloatGrid>(descriptor.read(stream));
-            if (grid) {
-                readGrid(grid, descriptor, stream);
-                named[descriptor.uniqueName()] = grid;
-                connectInstance(descriptor, named);
-                grids.push_back(grid);
-            } else {
-                descriptor.seekToEnd(stream);
-            }
-        }
-        return grids;
-    }
-};
-
-/// Reads all float grids of a file. The stream's state reveals a truncated file, which OpenVDB does not report.
-std::vector<FloatGrid::Ptr> read_all(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        refuse(file, fmt::format("cannot be opened: {}; check the name", std::strerror(errno)));
-    if (std::filesystem::is_directory(file))
-        refuse(file, "is a folder; name a .vdb file in it");
-    check_vdb_structure(file);
-    try {
-        openvdb::initialize();
-        // Without exceptions, OpenVDB would loop over a damaged count past the end of the file.
-        stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-        return FloatGridReader().read(stream);
-    } catch (const std::ios_base::failure&) {
-        refuse(file, "ends early: the file is truncated or damaged, write it again");
-    } catch (const std::exception& error) {
-        // OpenVDB's message may contain arbitrary bytes of the file: keep a readable prefix.
-        std::string reason = error.what();
-        reason.resize(std::min<std::size_t>(reason.size(), 100));
-        std::replace_if(
-            reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-        refuse(file, fmt::format("is not a readable .vdb file ({}): write it again", reason));
-    }
-}
-
-/// Refuses values that are not finite, and a number of active voxels that differs from the metadata.
-void check_values(const FloatGrid& grid, const std::filesystem::path& file) {
-    const auto expected = grid.getMetadata<openvdb::Int64Metadata>("file_voxel_count");
-    if (expected && static_cast<openvdb::Index64>(expected->value()) != grid.activeVoxelCount())
-        refuse(file, fmt::format("grid '{}' has {} active voxels but declares {}: the file is damaged", grid.getName(),
-                                 grid.activeVoxelCount(), expected->value()));
-    std::vector<const openvdb::FloatTree::LeafNodeType*> leaves;
-    grid.tree().getNodes(leaves);
-    std::atomic<std::size_t> bad{std::isfinite(grid.background()) ? 0u : 1u};
-    auto tile = grid.tree().cbeginValueAll();
-    for (tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1); tile; ++tile)
-        bad += std::isfinite(*tile) ? 0u : 1u;
-    parallel_for(leaves.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = begin; l < end; ++l) {
-            const float* const values = leaves[l]->buffer().data();
-            bad += static_cast<std::size_t>(
-                std::count_if(values, values + leaves[l]->SIZE, [](float value) { return !std::isfinite(value); }));
-        }
-    });
-    if (bad > 0)
-        refuse(file, fmt::format("grid '{}' has {} values that are not finite numbers: the file is damaged",
-                                 grid.getName(), bad.load()));
-}
-
-/// The width of the inner band in voxels: down to the value that fills the inside, or that of the outer band if nothing
-/// is filled.
-float inner_band_of(const FloatGrid& grid, double voxel, float outer_band) {
-    float deepest = 0.0f;
-    for (auto value = grid.cbeginValueOff(); value; ++value)
-        deepest = std::min(deepest, *value);
-    return deepest < 0.0f ? static_cast<float>(-deepest / voxel) : outer_band;
-}
-
 LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std::filesystem::path& file) {
     const Frame& frame = stack.frame;
     const auto& transform = grid->transform();
-    const auto map = transform.baseMap()->getAffineMap()->getMat4();
-    const double size = map(0, 0);
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column)
-            if (std::fabs(map(row, column) - (row == column ? size : 0.0)) > 1e-6 * std::fabs(size) || !(size > 0.0))
-                refuse(file, fmt::format("grid '{}' has voxels that are not axis-aligned cubes: resample it to a "
-                                         "uniform, unrotated transform",
-                                         grid->getName()));
+    const double size = transform.voxelSize().x();
     const double band = double(grid->background()) / size;
     if (!(band > 0.0 && band < double(std::numeric_limits<float>::max())))
         refuse(file,
@@ -144,11 +43,10 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std:
                            "is damaged, write it again",
                            grid->getName(), grid->background()));
     LevelSet level;
-    level.voxel = static_cast<float>(size / frame.diagonal);
-    const openvdb::Vec3d origin = transform.indexToWorld(openvdb::Vec3d(0.0));
-    level.origin = frame.to_unit({origin.x(), origin.y(), origin.z()});
+    level.voxel = size / frame.diagonal;
+    level.origin = exact_in_unit(frame, origin_of({grid}));
     level.outer_band = static_cast<float>(band);
-    level.inner_band = inner_band_of(*grid, size, level.outer_band);
+    level.inner_band = static_cast<float>(double(inner_band_of({grid})) / size);
     level.active_voxels = grid->activeVoxelCount();
     level.bytes = grid->memUsage();
     scale_values(*grid, 1.0 / stack.value_unit);
@@ -175,22 +73,9 @@ void verify(const FloatGrid::Ptr& grid, const std::filesystem::path& file) {
                            grid->getName(), checksum_name));
 }
 
-/// Warns of values that are not distances; refuses the file if one is larger than the grid is wide.
-void check_outliers(const FloatGrid::Ptr& grid, const std::filesystem::path& file, std::vector<std::string>& warnings) {
-    const Outliers outliers = outliers_of({grid}, grid->voxelSize().x());
-    if (outliers.far > 0)
-        refuse(file,
-               fmt::format("grid '{}' has {} values that are larger than the grid is wide, so they are not distances: "
-                           "the file is damaged, write it again",
-                           grid->getName(), outliers.far));
-    if (outliers.count > 0)
-        warnings.push_back(fmt::format("grid '{}' has {} of {} active voxels whose values are not distances, "
-                                       "as they differ too much from their neighbours: "
-                                       "the program that wrote them is wrong, or the file is damaged",
-                                       in_one_line(grid->getName()), outliers.count, grid->activeVoxelCount()));
-}
-
-GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
+GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::path& file) {
+    std::sort(grids.begin(), grids.end(),
+              [](const auto& a, const auto& b) { return number(*a, "alcove:voxel") < number(*b, "alcove:voxel"); });
     GridStack stack;
     const FloatGrid& finest = *grids.front();
     stack.creator = creator;
@@ -200,6 +85,8 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     if (!is_finite(stack.frame.center) || !std::isfinite(stack.frame.diagonal))
         refuse(file, "lacks part of its alcove metadata: write it again");
     stack.value_unit = value_unit_of(stack.frame);
+    if (number(finest, lattice_name) > 0.0)
+        stack.lattice = {finest.voxelSize().x(), origin_of({grids.front()})};
     if (const double levels = number(finest, "alcove:levels");
         levels > 0.0 && levels != static_cast<double>(grids.size()))
         refuse(file,
@@ -211,13 +98,15 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     for (const FloatGrid::Ptr& grid : grids) {
         // The values of a sheet jump where its negative layer ends.
         if (!(*grid)[checksum_name] && stack.sign == Sign::solid)
-            check_outliers(grid, file, stack.warnings);
+            check_outliers({grid}, file, stack.warnings);
         LevelSet level = level_of(grid, stack, file);
         const double voxel = number(*grid, "alcove:voxel");
-        if (!(std::fabs(voxel - double(level.voxel)) <= 1e-5 * voxel))
-            refuse(file,
-                   fmt::format("grid '{}' was scaled after alcove wrote it: voxelize the mesh again", grid->getName()));
-        level.voxel = static_cast<float>(voxel);
+        if (!(std::fabs(voxel - level.voxel) <= 1e-5 * voxel) || !is_aligned({grid}))
+            refuse(file, fmt::format("grid '{}' was turned or scaled after alcove wrote it: voxelize the mesh again",
+                                     grid->getName()));
+        level.voxel = voxel;
+        if (!stack.lattice)
+            level.origin = Vec3d(Vec3(level.origin)); // as it was before it was written
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))
@@ -227,73 +116,97 @@ GridStack our_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesys
     return stack;
 }
 
-bool has_inside(const FloatGrid& grid) {
-    for (auto value = grid.cbeginValueAll(); value; ++value)
-        if (*value < 0.0f)
-            return true;
-    return false;
-}
-
-/// Converts distances in another unit, such as voxels, to scene units.
-void scale_to_scene(const FloatGrid::Ptr& grid, std::vector<std::string>& warnings) {
-    const double slope = slope_of({grid}, grid->voxelSize().x());
-    constexpr double tolerance = 1.3; // smoothing changes the slope by less
-    if (!(slope > 0.0) || (slope < tolerance && slope > 1.0 / tolerance))
-        return;
-    scale_values(*grid, 1.0 / slope);
-    warnings.push_back(fmt::format("grid '{}' has values that change by {:.3g} per unit of length: they are treated as "
-                                   "distances in another unit and divided by that factor",
-                                   in_one_line(grid->getName()), slope));
-}
-
-/// Refuses a grid whose active voxels do not have the bounding box in its metadata.
-void check_bounding_box(const FloatGrid& grid, const openvdb::CoordBBox& voxels, const std::filesystem::path& file) {
-    const auto low = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_min"),
-               high = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_max");
-    if (low && high && (voxels.min().asVec3i() != low->value() || voxels.max().asVec3i() != high->value()))
-        refuse(file, fmt::format("grid '{}' does not have the bounding box that it declares: the file is damaged",
-                                 grid.getName()));
-}
-
-GridStack foreign_stack(const std::vector<FloatGrid::Ptr>& grids, const std::filesystem::path& file) {
-    auto chosen = std::find_if(grids.begin(), grids.end(),
-                               [](const auto& g) { return g->getGridClass() == openvdb::GRID_LEVEL_SET; });
-    if (chosen == grids.end())
-        chosen = std::find_if(grids.begin(), grids.end(), [](const auto& g) { return g->background() > 0.0f; });
-    if (chosen == grids.end() || !((*chosen)->background() > 0.0f) || (*chosen)->activeVoxelCount() == 0)
-        refuse(file, "contains no float level set: alcove needs signed distances, positive outside");
-    if (!has_inside(**chosen))
-        refuse(file, fmt::format("grid '{}' has no negative distance: alcove needs signed distances, negative "
-                                 "inside, and finds the surface where they change sign",
-                                 (*chosen)->getName()));
-    // Programs that set voxels one by one leave the inside beyond the band at the outside value.
-    openvdb::tools::signedFloodFill((*chosen)->tree());
-    (*chosen)->setGridClass(openvdb::GRID_LEVEL_SET);
-    std::vector<std::string> warnings;
-    scale_to_scene(*chosen, warnings);
-    check_outliers(*chosen, file, warnings);
-    const openvdb::CoordBBox voxels = (*chosen)->evalActiveVoxelBoundingBox();
-    check_bounding_box(**chosen, voxels, file);
-    const openvdb::BBoxd scene = (*chosen)->transform().indexToWorld(voxels);
+/// A single level whose voxels are cubes along the axes.
+GridStack one_level(const FloatGrid::Ptr& grid, const std::filesystem::path& file) {
+    const openvdb::BBoxd scene = grid->transform().indexToWorld(grid->evalActiveVoxelBoundingBox());
     Box box;
     box.add({scene.min().x(), scene.min().y(), scene.min().z()});
     box.add({scene.max().x(), scene.max().y(), scene.max().z()});
     GridStack stack;
-    stack.creator = (*chosen)->getCreator();
+    stack.creator = grid->getCreator();
     try {
         stack.frame = frame_of(box);
     } catch (const InputError& error) {
         refuse(file, error.what());
     }
     stack.value_unit = value_unit_of(stack.frame);
-    if (!(glm::length(stack.frame.center) < 1e12 * (*chosen)->voxelSize().x()))
-        refuse(file, fmt::format("grid '{}' is so far from the origin that its voxels coincide: move it nearer",
-                                 (*chosen)->getName()));
-    stack.levels.push_back(level_of(*chosen, stack, file));
-    stack.warnings = std::move(warnings);
+    stack.levels.push_back(level_of(grid, stack, file));
     return stack;
 }
 
+/// The finest level of a stack of solids, in scene units.
+VdbGrid solid_of(const GridStack& stack, const std::filesystem::path& file) {
+    const FloatGrid::Ptr finest = stack.levels.front().grid->grid;
+    if (stack.sign == Sign::sheet)
+        refuse(file, fmt::format("grid '{}' is a sheet, which cannot be united with other level sets: choose with "
+                                 "--grid-name",
+                                 finest->getName()));
+    scale_values(*finest, stack.value_unit);
+    return {finest};
+}
+
+/// A stack of Alcove as it is, or the union of all grids.
+GridStack stack_of(const std::vector<VdbGrid>& grids, const std::filesystem::path& file, double memory_limit,
+                   std::vector<std::string>& warnings) {
+    std::map<std::string, std::vector<FloatGrid::Ptr>> stacks; // by the text of their frames
+    std::vector<VdbGrid> solids;
+    std::vector<std::string> useless;
+    for (const VdbGrid& grid : grids) {
+        if (is_ours(*grid.grid)) {
+            verify(grid.grid, file);
+            std::string frame;
+            for (const char* part : {"alcove:center_x", "alcove:center_y", "alcove:center_z", "alcove:diagonal"})
+                frame += fmt::format("{} ", number(*grid.grid, part));
+            stacks[frame].push_back(grid.grid);
+        } else if (std::string why = prepare(grid, file, warnings); why.empty()) {
+            solids.push_back(grid);
+        } else {
+            useless.push_back(std::move(why));
+        }
+    }
+    if (solids.empty() && stacks.empty())
+        refuse(file, useless.front());
+    for (const std::string& why : useless)
+        warnings.push_back(why + ": it is left out");
+    if (solids.empty() && stacks.size() == 1)
+        return our_stack(stacks.begin()->second, file);
+    for (const auto& [frame, levels] : stacks)
+        solids.push_back(solid_of(our_stack(levels, file), file));
+    try {
+        return one_level(join(solids, memory_limit, warnings).grid, file);
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        throw InputError(what.starts_with(file.string()) ? what : file.string() + ": " + what);
+    } catch (const LimitError& error) {
+        throw LimitError(file.string() + ": " + error.what());
+    }
+}
+
+/// The grids of a selection, never none, and their names.
+struct Chosen {
+    std::vector<VdbGrid> grids;
+    std::vector<std::string> names;
+};
+
+Chosen read_chosen(const std::filesystem::path& file, const GridSelection& selection,
+                   std::vector<std::string>& warnings) {
+    check_openable(file);
+    const VdbStructure structure = check_vdb_structure(file);
+    const std::vector<bool> wanted = choose(structure, selection.names, file, warnings);
+    Chosen chosen;
+    double bytes = 0.0;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i]) {
+            bytes += static_cast<double>(structure.grids[i].bytes);
+            chosen.names.push_back(structure.grids[i].grid.name);
+        }
+    if (bytes > selection.memory_limit)
+        throw LimitError(fmt::format("{}: its level sets need about {} GB, over the limit of {} GB: resample to larger "
+                                     "voxels, or choose with --grid-name",
+                                     file.string(), rounded(bytes / 1e9, 2), rounded(selection.memory_limit / 1e9, 2)));
+    chosen.grids = read_trees(file, structure, wanted);
+    return chosen;
+}
 }
 
 void scale_values(FloatGrid& grid, double factor) {
@@ -307,7 +220,7 @@ void scale_values(FloatGrid& grid, double factor) {
 
 void write_grids(const GridStack& stack, const std::filesystem::path& file) {
     // OpenVDB accepts no smaller transform, and floats cannot represent larger distances.
-    if (const double voxel = stack.levels.front().voxel * stack.frame.diagonal; voxel < 1e-10 || voxel > 1e30)
+    if (const double voxel = stack.scene_voxel(); voxel < 1e-10 || voxel > 1e30)
         throw IoError(fmt::format("{}: voxels in a .vdb file must be from 1e-10 to 1e30 scene units, these are {:.3g}: "
                                   "scale the scene",
                                   file.string(), voxel));
@@ -316,9 +229,9 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         const LevelSet& level = stack.levels[i];
         const auto grid = level.grid->grid->deepCopy();
         scale_values(*grid, stack.value_unit);
-        const auto transform =
-            openvdb::math::Transform::createLinearTransform(double(level.voxel) * stack.frame.diagonal);
-        const Vec3d origin = stack.frame.to_scene(level.origin);
+        const auto transform = openvdb::math::Transform::createLinearTransform(stack.scene_voxel(i));
+        const Vec3d origin =
+            stack.lattice ? stack.lattice->origin : level.origin * stack.frame.diagonal + stack.frame.center;
         transform->postTranslate({origin.x, origin.y, origin.z});
         grid->setTransform(transform);
         grid->setName(level_name(i));
@@ -335,6 +248,8 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         put("alcove:voxel", level.voxel);
         put("alcove:outer_band", level.outer_band);
         put("alcove:inner_band", level.inner_band);
+        if (stack.lattice)
+            put(lattice_name, stack.scene_voxel());
         grid->insertMeta("alcove:sign", openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
         grid->insertMeta(checksum_name, openvdb::Int64Metadata(checksum_of({grid})));
         grids.push_back(grid);
@@ -346,8 +261,9 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
         archive.write(grids);
         archive.close();
         // OpenVDB does not notice a full disk: read the new file before it replaces the old one.
-        for (const FloatGrid::Ptr& grid : read_all(out.temporary()))
-            verify(grid, out.temporary());
+        for (const VdbGrid& grid :
+             read_trees(out.temporary(), check_vdb_structure(out.temporary()), std::vector<bool>(grids.size(), true)))
+            verify(grid.grid, out.temporary());
     } catch (const std::exception& error) {
         throw IoError(
             fmt::format("{}: cannot be written completely, is the disk full? ({})", file.string(), error.what()));
@@ -355,23 +271,39 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
     out.commit();
 }
 
-GridStack read_grids(const std::filesystem::path& file) {
-    std::vector<FloatGrid::Ptr> grids = read_all(file);
-    for (const FloatGrid::Ptr& grid : grids)
-        check_values(*grid, file);
-    if (grids.empty())
-        refuse(file, "contains no float grid: alcove needs a level set");
-    std::vector<FloatGrid::Ptr> ours;
-    std::copy_if(grids.begin(), grids.end(), std::back_inserter(ours), [](const auto& g) { return is_ours(*g); });
-    std::sort(ours.begin(), ours.end(),
-              [](const auto& a, const auto& b) { return number(*a, "alcove:voxel") < number(*b, "alcove:voxel"); });
+std::vector<StoredGrid> list_grids(const std::filesystem::path& file) {
+    check_openable(file);
+    std::vector<StoredGrid> grids;
+    for (GridEntry& entry : check_vdb_structure(file).grids)
+        grids.push_back(std::move(entry.grid));
+    return grids;
+}
+
+GridStack read_grids(const std::filesystem::path& file, const GridSelection& selection) {
+    std::vector<std::string> warnings;
+    const Chosen chosen = read_chosen(file, selection, warnings);
     try {
-        for (const FloatGrid::Ptr& grid : ours)
-            verify(grid, file);
-        return ours.empty() ? foreign_stack(grids, file) : our_stack(ours, file);
+        GridStack stack = stack_of(chosen.grids, file, selection.memory_limit, warnings);
+        stack.sources = chosen.names;
+        stack.warnings.insert(stack.warnings.begin(), warnings.begin(), warnings.end());
+        return stack;
     } catch (const openvdb::Exception&) {
         refuse(file, "contains a transform that cannot be inverted: write it again");
     }
+}
+
+Lattice read_lattice(const std::filesystem::path& file) {
+    std::vector<std::string> warnings;
+    const std::vector<VdbGrid> grids = read_chosen(file, {}, warnings).grids;
+    const auto finest = std::min_element(grids.begin(), grids.end(), [](const VdbGrid& a, const VdbGrid& b) {
+        return a.grid->voxelSize().x() < b.grid->voxelSize().x();
+    });
+    if (!is_aligned(*finest))
+        refuse(file,
+               fmt::format("grid '{}' has voxels that are not cubes along the axes, so no mesh can be voxelized on "
+                           "them: name another grid, or a length",
+                           finest->grid->getName()));
+    return {finest->grid->voxelSize().x(), origin_of(*finest)};
 }
 
 }

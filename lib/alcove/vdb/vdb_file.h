@@ -2,8 +2,13 @@
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
+#include "alcove/grid/voxelize.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace alcove {
 
@@ -13,9 +18,32 @@ namespace alcove {
 /// \throw IoError if the file cannot be written.
 void write_grids(const GridStack& stack, const std::filesystem::path& file);
 
-/// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the first float grid of class
-/// level set (or else the first float grid with a background above 0) as a single level in the frame of its active
-/// voxels. Its transform may be any whose voxels are axis-aligned cubes.
+/// A grid in a .vdb file.
+struct StoredGrid {
+    std::string name;       ///< unique in the file: several of one name are "surface[0]", "surface[1]", ...
+    std::string type;       ///< of its values: "float", "double", "vec3s", ...
+    std::string grid_class; ///< "level set", "fog volume", "staggered" or "unknown"
+    std::optional<std::int64_t> active_voxels; ///< if the file says so
+};
+
+/// All grids in the order of the file. \throw InputError as read_grids(), for a file without level sets only if it is
+/// damaged.
+std::vector<StoredGrid> list_grids(const std::filesystem::path& file);
+
+/// Which grids of a file to read.
+struct GridSelection {
+    std::vector<std::string> names{}; ///< empty: all level sets
+    /// Limit of the memory for the grids, bytes.
+    double memory_limit = GridOptions{}.memory_limit;
+};
+
+/// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the union of all level sets of floats
+/// and doubles (or else of all such grids without a class that hold distances) as a single level in the frame of its
+/// active voxels. Several stacks, or a stack and other level sets, are united as well, from their finest levels.
+///
+/// Transforms may be any but frustums. Level sets that share a lattice, and those turned by 90° or mirrored, keep their
+/// values. Others are interpolated on the lattice of the smallest voxels, which rounds sharp edges by a fraction of a
+/// voxel; where voxels are not cubes, the zero surface is voxelized again. See detail/join.h.
 ///
 /// In a stack with checksums, damage is detected except with a probability of 2⁻³². A file of another program is
 /// refused if its lengths, masks, offsets or counts are inconsistent, zipped values do not unpack, or values are
@@ -23,11 +51,15 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file);
 /// they differ too much from their neighbours. Errors in data that such a file stores only once cannot be detected:
 /// a wrong translation of the grid, and values that are wrong by less than about a voxel. A stack that alcove wrote
 /// before there were checksums gets the same checks, except that the values are compared with their neighbours only
-/// for solids. Ignores grids of types other than float. Thread-safe; uses the threads of parallel_for. Cost: in
+/// for solids. Thread-safe; uses the threads of parallel_for. Cost: in
 /// addition to OpenVDB's, reads the file once beforehand and unpacks its zipped values.
 ///
 /// \throw InputError with the reason: not a .vdb file, damaged, changed since it was written, no level set in it,
-/// voxels that are not cubes, or the file cannot be opened.
-GridStack read_grids(const std::filesystem::path& file);
+/// a surface without voxels of distances, or the file cannot be opened. LimitError if the grids do not fit.
+GridStack read_grids(const std::filesystem::path& file, const GridSelection& selection = {});
+
+/// The lattice of the voxels of the finest level set. \throw as read_grids(), and InputError if its voxels are not cubes
+/// along the axes.
+Lattice read_lattice(const std::filesystem::path& file);
 
 }

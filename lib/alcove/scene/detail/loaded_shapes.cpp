@@ -30,7 +30,7 @@ void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
 }
 
 void load_grid(const GridShape& shape, LoadedShape& loaded) {
-    loaded.stack = read_grids(shape.file);
+    loaded.stack = read_grids(shape.file, {shape.names});
     loaded.warnings = loaded.stack.warnings;
     try {
         add(loaded.box, posed(outline(LevelStack(loaded.stack), loaded.stack.frame).box, loaded.pose));

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,13 +23,11 @@ static_assert(Leaf::DIM == edge);
 constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // between voxels along x, y and z
 
 /// Whether no neighbours in the leaf differ by more than `step`. A fast test that most leaves of most grids pass.
-bool is_smooth(const float* values, float step, float farthest, float deepest) {
+bool is_smooth(const float* values, float step, float deepest) {
     int steps = 0;
     const auto count = [&](int v, int stride) {
         steps += int(std::fabs(std::max(values[v], deepest) - std::max(values[v + stride], deepest)) > step);
     };
-    for (int v = 0; v < int(Leaf::SIZE); ++v)
-        steps += int(std::fabs(values[v]) > farthest);
     for (int v = 0; v < int(Leaf::SIZE) - strides[0]; ++v)
         count(v, strides[0]);
     for (int x = 0; x < edge; ++x)
@@ -42,32 +39,23 @@ bool is_smooth(const float* values, float step, float farthest, float deepest) {
     return steps == 0;
 }
 
-/// The most negative value within the band; values outside the band are minus the background. The inner band is not
-/// always as wide as the outer.
-float deepest_of(const FloatGrid& grid, const std::vector<const Leaf*>& leaves) {
-    std::vector<std::int32_t> depths(leaves.size());
-    const float background = grid.background();
+/// The most negative value of an active voxel; inactive ones have minus the background. The inner band is not always as
+/// wide as the outer.
+float deepest_of(const std::vector<const Leaf*>& leaves) {
+    std::vector<float> depths(leaves.size());
     parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = begin; l < end; ++l) {
-            const float* const values = leaves[l]->buffer().data();
-            std::int32_t deepest = 0; // as bits, which have the order of positive floats
-            for (int v = 0; v < int(Leaf::SIZE); ++v) {
-                const float inward = -values[v];
-                const std::int32_t within = inward < background ? std::bit_cast<std::int32_t>(inward) : 0;
-                deepest = std::max(deepest, within);
-            }
-            depths[l] = deepest;
-        }
+        for (std::size_t l = begin; l < end; ++l)
+            for (auto value = leaves[l]->cbeginValueOn(); value; ++value)
+                depths[l] = std::min(depths[l], *value);
     });
-    return depths.empty() ? 0.0f : -std::bit_cast<float>(*std::max_element(depths.begin(), depths.end()));
+    return depths.empty() ? 0.0f : *std::min_element(depths.begin(), depths.end());
 }
 
 class OutlierFinder {
   public:
     OutlierFinder(const FloatGrid& grid, float deepest, double voxel)
         : reader_(grid.getConstAccessor()), small_step_(static_cast<float>(1.15 * voxel)),
-          large_step_(static_cast<float>(1.5 * voxel)), near_(static_cast<float>(2.0 * voxel)),
-          farthest_(1.001f * grid.background()), deepest_(deepest) {
+          large_step_(static_cast<float>(1.5 * voxel)), near_(static_cast<float>(2.0 * voxel)), deepest_(deepest) {
         openvdb::CoordBBox leaves;
         grid.tree().evalLeafBoundingBox(leaves);
         widest_ = static_cast<float>(voxel * leaves.extents().asVec3d().length());
@@ -86,10 +74,9 @@ class OutlierFinder {
     }
 
   private:
-    /// Whether no neighbours in and around the leaf, active or not, differ by more than small_step_, and no value is
-    /// beyond the background.
+    /// Whether no neighbours in and around the leaf, active or not, differ by more than small_step_.
     bool is_smooth_within_others(const Leaf& leaf) {
-        if (!is_smooth(leaf.buffer().data(), small_step_, farthest_, deepest_))
+        if (!is_smooth(leaf.buffer().data(), small_step_, deepest_))
             return false;
         int steps = 0;
         for (const int side : {-1, 1})
@@ -132,13 +119,69 @@ class OutlierFinder {
                     is_other_side ? std::fabs(value) : std::fabs(std::max(value, deepest_) - std::max(other, deepest_));
                 steps += int(step > small_step_) + int(near && step > large_step_);
             }
-        return steps >= (near ? 2 : 3) || std::fabs(value) > farthest_;
+        return steps >= (near ? 2 : 3);
     }
 
     FloatGrid::ConstAccessor reader_;
-    float small_step_, large_step_, near_, farthest_, deepest_, widest_;
+    float small_step_, large_step_, near_, deepest_, widest_;
 };
 
+using Tree = openvdb::FloatTree;
+using Reader = FloatGrid::ConstAccessor;
+
+/// The edge of the tile or voxel at a place, in voxels.
+int edge_at(const Reader& reader, const Coord& at) {
+    constexpr std::array<int, 4> edges{4096, 128, 8, 1};
+    return edges[static_cast<std::size_t>(std::max(reader.getValueDepth(at), 0))];
+}
+
+/// Whether a square of one layer of voxels, at a multiple of its edge, has a value of the other sign.
+bool changes_sign(const Reader& reader, const Coord& low, int axis, int size, bool inside) {
+    const int part = edge_at(reader, low);
+    if (part >= size)
+        return (reader.getValue(low) < 0.0f) != inside;
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3, next = size > 128 ? 128 : size > edge ? edge : 1;
+    Coord at = low;
+    for (at[a] = low[a]; at[a] < low[a] + size; at[a] += next)
+        for (at[b] = low[b]; at[b] < low[b] + size; at[b] += next)
+            if (changes_sign(reader, at, axis, next, inside))
+                return true;
+    return false;
+}
+
+bool is_at_surface(const Reader& reader, const openvdb::CoordBBox& tile, float value) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool above : {false, true}) {
+            Coord low = tile.min();
+            low[axis] = above ? tile.max()[axis] + 1 : low[axis] - 1;
+            if (changes_sign(reader, low, axis, tile.dim()[axis], value < 0.0f))
+                return true;
+        }
+    return false;
+}
+
+}
+
+Tiles simplify_tiles(const VdbGrid& level) {
+    FloatGrid& grid = *level.grid;
+    const float background = grid.background();
+    const Reader reader(grid.constTree());
+    Tiles tiles;
+    openvdb::CoordBBox box;
+    auto active = grid.tree().cbeginValueOn();
+    for (active.setMaxDepth(Tree::ValueOnCIter::LEAF_DEPTH - 1); active; ++active) {
+        active.getBoundingBox(box);
+        tiles.at_surface += is_at_surface(reader, box, *active);
+        tiles.voxels_within += std::fabs(*active) < background ? box.volume() : 0;
+    }
+    auto tile = grid.tree().beginValueAll();
+    for (tile.setMaxDepth(Tree::ValueAllIter::LEAF_DEPTH - 1); tile; ++tile)
+        if (tile.isValueOn()) {
+            tile.setValue(std::copysign(background, *tile));
+            tile.setActiveState(false);
+        }
+    grid.tree().root().eraseBackgroundTiles();
+    return tiles;
 }
 
 double slope_of(const VdbGrid& level, double voxel) {
@@ -177,7 +220,7 @@ Outliers outliers_of(const VdbGrid& level, double voxel) {
     std::vector<const Leaf*> leaves;
     grid.tree().getNodes(leaves);
     std::atomic<std::size_t> count{0}, far{0};
-    const OutlierFinder finder(grid, deepest_of(grid, leaves), voxel);
+    const OutlierFinder finder(grid, deepest_of(leaves), voxel);
     parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
         OutlierFinder own = finder;
         for (std::size_t l = begin; l < end; ++l) {

@@ -17,13 +17,23 @@ struct Outliers {
     std::size_t far = 0;   ///< among these, farther from 0 than the grid is wide
 };
 
+/// What is wrong with the active tiles of a grid: blocks of 8³ voxels and more with one value.
+struct Tiles {
+    std::size_t at_surface = 0;    ///< tiles next to a value of the other sign: the surface has no voxels there
+    std::size_t voxels_within = 0; ///< voxels of tiles whose value is within the band
+};
+
+/// Makes active tiles inactive, with plus or minus the background as value: in a level set, tiles only tell the inside
+/// from the outside. Cost: linear in the tiles, and in the nodes next to active ones.
+Tiles simplify_tiles(const VdbGrid& grid);
+
 /// Checks every active voxel of a grid of distances whose signs were flood-filled. Distances of neighbours along an
 /// axis differ by at most one voxel (Osher and Fedkiw 2003, ch. 2), also at the ends of the band from
 /// the values outside it. A value within 2 voxels of 0 is an outlier if it differs by more than 1.15 voxels from
 /// two neighbours or by more than 1.5 voxels from one. Other values are outliers if they differ by more than 1.15
 /// voxels from three neighbours; these are not tested for 1.5 voxels, as OpenVDB 10 builds bands of 5 voxels and
-/// more with steps of up to 2.3 voxels there. Values beyond the background are outliers too. Next to an inactive
-/// voxel of the other sign, a value is compared with 0.
+/// more with steps of up to 2.3 voxels there. Values beyond the background may be distances: the inside may be filled.
+/// Next to an inactive voxel of the other sign, a value is compared with 0.
 ///
 /// Level sets of spheres, and filtered, offset, halved and combined ones, have no outliers. OpenVDB creates up to 8
 /// of them from some closed meshes, more from open ones. On a plane, errors below 0.72 voxel are not detected, nor

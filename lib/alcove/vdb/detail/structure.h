@@ -1,16 +1,39 @@
 /// Checks the structure of a .vdb file before OpenVDB reads it, as OpenVDB trusts the file.
 #pragma once
 
+#include "alcove/vdb/vdb_file.h"
+
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace alcove {
 
-/// Parses the names and metadata of the file, and all of its float grids down to the values of each leaf, for all
-/// types of compression. Skips grids of other types.
+/// A grid in the order of the file.
+struct GridEntry {
+    StoredGrid grid;
+    std::string unique_name;
+    /// Frame of the stack of which Alcove wrote it as a level: centre and diagonal; empty in other files.
+    std::vector<double> stack;
+    std::string parent;    ///< unique name of the grid whose tree it shares; empty if it has its own
+    bool is_linear = true; ///< its transform; otherwise a frustum
+    std::size_t bytes = 0; ///< of its tree in memory, with the doubles from which floats are made
+    std::int64_t end = 0;  ///< offset of the next grid
+};
+
+struct VdbStructure {
+    bool has_offsets = true; ///< a stream has none
+    std::vector<GridEntry> grids;
+};
+
+/// Parses the names and metadata of all grids, and grids of floats and doubles down to the values of each leaf, for all
+/// types of compression. Skips the values of other types.
 /// \throw InputError if the file is not a .vdb, a length exceeds the rest of the file or differs from that of its
 /// values, offsets or masks that are stored twice differ, a transform is inconsistent, zipped values do not unpack, or
-/// bytes are left over; also for float grids that OpenVDB before 2.0 (2013) wrote. Cost: reads the file once and unzips
-/// what is zipped.
-void check_vdb_structure(const std::filesystem::path& file);
+/// bytes are left over; also for files that OpenVDB before 2.0 (2013) wrote. Cost: reads the file once and unzips what
+/// is zipped.
+VdbStructure check_vdb_structure(const std::filesystem::path& file);
 
 }

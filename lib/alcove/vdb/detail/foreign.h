@@ -1,0 +1,27 @@
+/// Checks level sets of other programs.
+#pragma once
+
+#include "alcove/grid/grid_stack.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+/// The width of the inner band, in the unit of the values: down to the value that fills the inside, or that of the outer
+/// band if nothing is filled.
+float inner_band_of(const VdbGrid& grid);
+
+/// The centre of the voxel of index (0, 0, 0), scene units.
+Vec3d origin_of(const VdbGrid& grid);
+
+/// Warns of values that are not distances; refuses the file if one is larger than the grid is wide.
+void check_outliers(const VdbGrid& grid, const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// Checks a level set of another program, fills its inside, and converts distances in other units, such as voxels, to
+/// scene units. \return why it is useless, or an empty string. \throw InputError if it is damaged, or if its surface
+/// has no voxels with distances.
+std::string prepare(const VdbGrid& grid, const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+}
