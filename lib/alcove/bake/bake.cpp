@@ -2,6 +2,7 @@
 
 #include "alcove/bake/detail/options.h"
 #include "alcove/bake/detail/parts.h"
+#include "alcove/bake/detail/provenance.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
@@ -18,8 +19,6 @@
 
 namespace alcove {
 namespace {
-
-constexpr const char* provenance = "alcove ";
 
 /// A mesh and the data that all its targets share.
 struct PreparedMesh {
@@ -240,11 +239,6 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
     } catch (const TimeLimitError& error) {
         throw TimeLimitError(named(mesh, error.what()));
     }
-}
-
-/// Whether the file was written by an earlier bake.
-bool is_baked(const Mesh& mesh) {
-    return mesh.source && mesh.source->has_comment(provenance);
 }
 
 /// Whether to add ao as colours and `quality`: not if the mesh already has either, unless an earlier bake added them.

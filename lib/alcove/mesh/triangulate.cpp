@@ -199,8 +199,9 @@ class PolygonCutter {
     std::size_t ears_ = 0; ///< ears that remain
 };
 
-/// Triangulates the faces [begin, end).
-Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t begin, std::size_t end) {
+/// Triangulates the faces [begin, end). `faces`, if set, gets the face of each triangle.
+Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t begin, std::size_t end,
+                                std::vector<std::uint32_t>* faces = nullptr) {
     Triangulation result;
     const std::size_t corners = mesh.face_begin[end] - mesh.face_begin[begin];
     reserve_huge(result.triangles, corners - std::min(corners, 2 * (end - begin)));
@@ -225,14 +226,26 @@ Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t b
                 result.triangles.push_back({face[0], face[1], face[2]});
         }
         result.faces_left_out += result.triangles.size() == before;
+        if (faces)
+            faces->resize(result.triangles.size(), static_cast<std::uint32_t>(f));
     }
     return result;
 }
 
+bool are_finite(const std::vector<Vec3d>& positions) {
+    return std::all_of(positions.begin(), positions.end(), is_finite);
+}
+
+}
+
+std::vector<std::uint32_t> faces_of_triangles(const Mesh& mesh) {
+    std::vector<std::uint32_t> faces;
+    triangulate_range(mesh, are_finite(mesh.positions), 0, mesh.face_count(), &faces);
+    return faces;
 }
 
 Triangulation triangulate(const Mesh& mesh) {
-    const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
+    const bool all_finite = are_finite(mesh.positions);
     // For triangles, sharing the work and joining the results would take longer than the work itself.
     if (mesh.corners.size() <= 3 * mesh.face_count())
         return triangulate_range(mesh, all_finite, 0, mesh.face_count());

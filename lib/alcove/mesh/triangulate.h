@@ -22,6 +22,9 @@ struct Triangulation {
 /// Cost: about 15 ns per triangle, 50 ns per quad.
 Triangulation triangulate(const Mesh& mesh);
 
+/// The face of each triangle of triangulate(mesh). Cost: that of triangulate() on one thread.
+std::vector<std::uint32_t> faces_of_triangles(const Mesh& mesh);
+
 inline constexpr std::size_t longest_clipped_polygon = 2048;
 
 }

@@ -19,6 +19,14 @@ class ObjDocument : public SourceDocument {
                text.starts_with("# " + std::string(beginning));
     }
 
+    /// The faces from `first_face` to the next use have the material `name`.
+    struct MaterialUse {
+        std::size_t first_face;
+        std::string name;
+    };
+    std::vector<MaterialUse> material_uses;  ///< in file order
+    std::vector<std::string> material_files; ///< what follows each 'mtllib': one name or several
+
     std::size_t weights = 0; ///< vertices whose fourth coordinate is not 1
 
     /// Lines that a Mesh cannot represent: a description ("'usemtl' lines") and a count above 0.

@@ -76,12 +76,24 @@ class ObjReader {
             normals_.push_back(unit_or_zero(n));
             check_line_end();
         } else {
+            if (keyword == "usemtl")
+                document_->material_uses.push_back({mesh_.face_count(), rest_of_line()});
+            else if (keyword == "mtllib")
+                document_->material_files.push_back(rest_of_line());
             const auto known = std::find(text_keywords.begin(), text_keywords.end(), keyword);
             if (known != text_keywords.end())
                 ++text_lines_[static_cast<std::size_t>(known - text_keywords.begin())];
             else if (unknown_lines_++ == 0)
                 first_unknown_ = keyword;
         }
+    }
+
+    /// The rest of the line without the blanks around it. Names of materials and files may contain blanks and '#'.
+    std::string rest_of_line() const {
+        const std::string_view rest(text_.at(), text_.bytes_left());
+        const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
+        const std::size_t first = line.find_first_not_of(" \t");
+        return first == line.npos ? "" : std::string(line.substr(first, line.find_last_not_of(" \t") + 1 - first));
     }
 
     double number_on_line(const char* expected) {
