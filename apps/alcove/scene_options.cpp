@@ -111,6 +111,11 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
         ->type_name("NAME")
         ->default_str("mesh");
+    add_choice<std::optional<bool>>(
+        verb, "--color", request.own_colors, {{"own", true}, {"none", false}},
+        "Colours. own: those of the vertices or faces of the mesh, or of the materials of an obj; none: grey")
+        ->type_name("NAME")
+        ->default_str("own");
 }
 
 Scene requested_scene(const SceneRequest& request, PassSet passes) {
@@ -121,8 +126,9 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
         mesh->voxel = request.voxel;
         mesh->sign = request.sign;
         mesh->own_normals = request.own_normals.value_or(true);
-    } else if (request.voxel || request.sign != SignChoice::automatic || request.own_normals) {
-        throw UsageError(fmt::format("--voxel, --sign and --normals are for meshes: {} is a {}", request.input,
+        mesh->own_colors = request.own_colors.value_or(true);
+    } else if (request.voxel || request.sign != SignChoice::automatic || request.own_normals || request.own_colors) {
+        throw UsageError(fmt::format("--voxel, --sign, --normals and --color are for meshes: {} is a {}", request.input,
                                      described ? "scene, whose objects set them" : "grid already"));
     }
     if (GridShape* grid = described ? nullptr : std::get_if<GridShape>(&scene.objects.front().shape))

@@ -25,7 +25,7 @@ struct SceneRequest {
     std::optional<int> pixel_samples{};
     std::vector<std::string> grid_names{};
     bool no_ground = false, no_shadow = false;
-    std::optional<bool> own_normals{};
+    std::optional<bool> own_normals{}, own_colors{};
 };
 
 /// Adds the input and the options of SceneRequest.

@@ -145,6 +145,40 @@ TEST_F(RenderVerb, DrawsByRaysOnTheTriangles) {
     expect_refusal({"render", "painted.toml", "-o", "b.png"}, bad_input, {"painted", "no vertex colours"});
 }
 
+TEST_F(RenderVerb, ShowsTheColoursOfAMeshUnlessToldOtherwise) {
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+                             "float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n";
+    write("red.ply", head + "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n");
+    write("plain.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    const auto picture = [&](const std::string& file, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{file, "-o", "a.png"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome drawn = draw(arguments);
+        EXPECT_EQ(drawn.code, done) << drawn.err;
+        EXPECT_EQ(drawn.err, "");
+        return bytes_of("a.png");
+    };
+    const std::string plain = picture("plain.off", {});
+    EXPECT_NE(picture("red.ply", {}), plain);
+    EXPECT_EQ(picture("red.ply", {}), picture("red.ply", {"--color", "own"}));
+    EXPECT_EQ(picture("red.ply", {"--color", "none"}), plain);
+    write("red.toml", "[[object]]\nshape = \"mesh\"\nfile = \"red.ply\"\ncolor = \"own\"\n");
+    expect_refusal({"render", "red.toml", "-o", "a.png", "--color", "none"}, usage, {"--color", "red.toml"});
+    expect_refusal({"render", "red.ply", "-o", "a.png", "--color", "ao"}, usage, {"--color", "own or none", "'ao'"});
+}
+
+TEST_F(RenderVerb, DoesNotShowTheAoOfABakeAsColour) {
+    write("cube.off", cube_off);
+    for (const char* const baked : {"baked.ply", "baked.obj"}) {
+        ASSERT_EQ(run({"bake", "cube.off", "-o", baked, "--ground"}).code, done);
+        const Outcome drawn = draw({baked, "-o", "a.png"});
+        ASSERT_EQ(drawn.code, done);
+        EXPECT_NE(drawn.err.find("ao of an earlier bake"), std::string::npos) << baked << drawn.err;
+        EXPECT_EQ(draw({baked, "-o", "a.png", "--color", "none"}).err, "");
+    }
+}
+
 TEST_F(RenderVerb, FilesOfASceneAreFoundFromItsFolder) {
     std::filesystem::create_directory(folder_ / "work/sub");
     write("sub/cube.off", cube_off);

@@ -61,6 +61,14 @@ class Resolver {
     }
 
   private:
+    /// Uses the colour of the mesh in the ways of the part.
+    static void apply(const Vec3& color, const Part& part, Place& place) {
+        if (part.painted)
+            place.painted = (color.x + color.y + color.z) / 3.0f;
+        if (part.colored)
+            place.color = color;
+    }
+
     void resolve(const Hits& hits, const HitValues& values, std::size_t pixel, std::size_t i) const {
         const auto samples = static_cast<std::size_t>(options_.samples);
         const auto value = [](const std::vector<float>& all, std::size_t s, float missing) {
@@ -78,12 +86,13 @@ class Resolver {
             const ObjectId object = hits.objects[s];
             const Ground* ground = ground_of(renderable_, object);
             const float coverage = ground ? ground->coverage(surfel.position) : 1.0f;
-            const Place place{.normal = surfel.normal,
-                              .to_eye = glm::normalize(Vec3(eye_ - Vec3d(surfel.position))),
-                              .ao = value(values.ao, s, 1.0f),
-                              .shadow = options_.casts_shadow ? value(values.shadow, s, 1.0f) : 1.0f,
-                              .convexity = value(values.convexity, s, 0.5f),
-                              .painted = value(hits.painted, s, 1.0f)};
+            Place place{.normal = surfel.normal,
+                        .to_eye = glm::normalize(Vec3(eye_ - Vec3d(surfel.position))),
+                        .ao = value(values.ao, s, 1.0f),
+                        .shadow = options_.casts_shadow ? value(values.shadow, s, 1.0f) : 1.0f,
+                        .convexity = value(values.convexity, s, 0.5f)};
+            if (!hits.colors.empty() && !ground)
+                apply(hits.colors[s], renderable_.parts[object - 1u], place);
             alpha += coverage;
             ao += coverage * place.ao;
             convexity += coverage * place.convexity;
@@ -150,7 +159,7 @@ Image render(const Renderable& renderable, const Camera& camera, const RenderOpt
         parallel_for(region.tiles(CameraRays::tile_side), 32,
                      [&](std::size_t begin, std::size_t end) { rays.trace(region, begin, end, hits); });
         if (renderable.mesh) {
-            hits.painted.resize(renderable.mesh->painted.empty() ? 0 : hits.surfels.size());
+            hits.colors.resize(renderable.mesh->colors.empty() ? 0 : hits.surfels.size());
             hits.faces.assign(hits.surfels.size(), {});
             parallel_for(hits.surfels.size(), 16 * RayBatch::capacity,
                          [&](std::size_t begin, std::size_t end) { snap(renderable, camera, begin, end, hits); });

@@ -59,7 +59,8 @@ struct Place {
     Vec3 to_eye{0.0f, 1.0f, 0.0f};
     float ao = 1.0f, shadow = 1.0f; ///< shares of the light that arrive
     float convexity = 0.5f;
-    float painted = 1.0f; ///< multiplies ao, as the material's occlusion does
+    float painted = 1.0f;        ///< multiplies ao, as the material's occlusion does
+    std::optional<Vec3> color{}; ///< diffuse reflectance, in place of that of the material
 };
 
 /// The share of the sky that an unoccluded surface sees: ½ + ½ u.
@@ -107,8 +108,9 @@ inline Vec3 shade(const Lighting& lighting, const Material& material, const Plac
         break;
     }
     light += bounce(upward, ao) * lighting.ground;
-    const Vec3 color = material.edge_color ? glm::mix(material.color, *material.edge_color, edge_share(place.convexity))
-                                           : material.color;
+    Vec3 color = place.color.value_or(material.color);
+    if (material.edge_color)
+        color = glm::mix(color, *material.edge_color, edge_share(place.convexity));
     return color * light + subsurface(ao) * material.subsurface +
            material.reflection * fresnel(place.normal, place.to_eye, ao) * lighting.sky;
 }
@@ -147,13 +149,15 @@ struct RenderableMesh {
     RaySurface surface;            ///< unit space
     std::vector<ObjectId> objects; ///< part number
     std::vector<Vec3> normals;     ///< of any length; zero keeps the normal of the field
-    std::vector<float> painted;    ///< factor of the ao, in [0, 1]; may be empty
+    std::vector<Vec3> colors;      ///< linear light; may be empty
 };
 
 /// One operand of the union that forms a field.
 struct Part {
     AnyField field; ///< unit space
     Material material{};
+    bool colored = false; ///< the colours of the mesh replace that of the material
+    bool painted = false; ///< the brightness of the colours of the mesh multiplies ao
 };
 
 /// A plane, visible from its front only, that fades into the background.

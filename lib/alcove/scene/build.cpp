@@ -16,7 +16,9 @@
 namespace alcove {
 namespace {
 
-constexpr double memory_limit = 4e9; // bytes, for all grids together
+constexpr double memory_limit = 4e9; // bytes
+// Measured: per triangle that rays hit, with its corners, their normals and its share of the BVH.
+constexpr double bytes_per_ray_triangle = 300.0;
 
 Box box_around(const std::vector<LoadedShape>& shapes) {
     Box box;
@@ -40,20 +42,19 @@ float named_voxel(const std::vector<LoadedShape>& shapes, const Frame& frame) {
         if (!loaded.stack.levels.empty())
             finest = std::min(finest, voxel_of(loaded));
         if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape); mesh && mesh->voxel) {
-            const double diagonal = loaded.mesh.box().diagonal();
+            const double diagonal = loaded.mesh->mesh.box().diagonal();
             finest = std::min(finest, double(mesh->voxel->to_unit(diagonal)) * diagonal * loaded.pose.scale);
         }
     });
     return std::isfinite(finest) ? static_cast<float>(finest / frame.diagonal) : 0.0f;
 }
 
-std::size_t count_grids(const std::vector<LoadedShape>& shapes) {
-    std::size_t count = 0;
-    for_each_shape(shapes, [&](const LoadedShape& loaded) {
-        count += std::holds_alternative<MeshShape>(loaded.object->shape) ||
-                 std::holds_alternative<GridShape>(loaded.object->shape);
-    });
-    return count;
+/// Adds the triangles of the meshes that are objects.
+void add_ray_triangles(const std::vector<LoadedShape>& shapes, MemoryEstimate& memory) {
+    for (const LoadedShape& loaded : shapes)
+        if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape))
+            memory.add(mesh->file.string(),
+                       bytes_per_ray_triangle * static_cast<double>(loaded.mesh->triangles.size()));
 }
 
 AnyField united(const std::vector<Part>& parts) {
@@ -99,11 +100,12 @@ double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& fra
     if (const std::optional<double> height = support(loaded.object->shape, loaded.pose, -up))
         return -*height;
     double height = std::numeric_limits<double>::infinity();
-    for (const Vec3d& p : loaded.mesh.positions)
-        if (is_finite(p))
-            height = std::min(height, glm::dot(up, loaded.pose(p)));
-    if (std::isfinite(height))
+    if (loaded.mesh) {
+        for (const Triangle& triangle : loaded.mesh->triangles)
+            for (const std::uint32_t vertex : triangle)
+                height = std::min(height, glm::dot(up, loaded.pose(loaded.mesh->mesh.positions[vertex])));
         return height;
+    }
     const Frame own = frame_of(loaded.box);
     const AnyField in_own = placed(field, frame, own);
     for (const Vec3d& p : outline(in_own, own).points) {
@@ -157,13 +159,16 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
     if (scene.objects.size() > max_objects)
         throw InputError(fmt::format("the scene has {} objects, but at most {} are possible: combine some into unions",
                                      scene.objects.size(), max_objects));
-    std::vector<LoadedShape> shapes = load_shapes(scene);
+    MemoryEstimate memory(memory_limit);
+    std::vector<LoadedShape> shapes = load_shapes(scene, memory);
     const Box box = box_around(shapes);
     const Frame frame = frame_of(box);
     const float radius = scene.occlusion.radius.to_unit(frame.diagonal, named_voxel(shapes, frame));
     const bool convexity = need_convexity(passes, has_edge_colors(scene));
-    const BuildContext common{frame, radius, reach_of(scene, passes, radius, convexity),
-                              memory_limit / std::max(1.0, static_cast<double>(count_grids(shapes))), progress};
+    for (LoadedShape& loaded : shapes)
+        set_reach(loaded, reach_of(scene, passes, radius, convexity), convexity, frame);
+    add_ray_triangles(shapes, memory);
+    SharedGrids grids(shapes, {frame, radius, progress}, memory);
 
     std::vector<Part> parts;
     std::vector<Ground> grounds;
@@ -175,7 +180,11 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
             grounds.push_back({.plane = plane_of(loaded, frame), .material = material});
             continue;
         }
-        parts.push_back({field_of(loaded, common, convexity), material});
+        parts.push_back({field_of(loaded, frame, grids), material});
+        if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape)) {
+            parts.back().colored = mesh->own_colors.value_or(false) && loaded.mesh->colors->any();
+            parts.back().painted = mesh->painted;
+        }
         if (scene.ground)
             floor = std::min(floor, lowest(loaded, parts.back().field, frame, up));
     }

@@ -40,7 +40,9 @@ Scene scene_of(const std::filesystem::path& file) {
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return std::tolower(c); });
     Scene scene;
-    scene.objects.push_back({file.string(), extension == ".vdb" ? Shape(GridShape{file}) : Shape(MeshShape{file})});
+    const bool is_grid = extension == ".vdb";
+    scene.objects.push_back(
+        {file.string(), is_grid ? Shape(GridShape{file}) : Shape(MeshShape{.file = file, .own_colors = true})});
     scene.ground = SceneGround{};
     return scene;
 }

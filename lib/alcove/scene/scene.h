@@ -51,6 +51,8 @@ struct MeshShape {
     SignChoice sign = SignChoice::automatic;
     bool own_normals = true; ///< use the normals of the mesh (corner_normals()), not those of the field
     bool painted = false;    ///< the brightness of its vertex colours multiplies the ao
+    /// Whether its own colours (own_colors()) replace that of the material. If unset, they do not, and a warning says so.
+    std::optional<bool> own_colors{};
 };
 /// A level set in a .vdb file.
 struct GridShape {
@@ -121,7 +123,8 @@ struct Scene {
     int samples = 4; ///< rays per pixel
 };
 
-/// A scene with one file as its only object, on a ground. A .vdb is a level set; any other file is a mesh.
+/// A scene with one file as its only object, on a ground. A .vdb is a level set; any other file is a mesh, which is shown
+/// in its own colours.
 Scene scene_of(const std::filesystem::path& file);
 
 /// Paths in the scene are relative to its folder; the files are not opened. \throw InputError, with file, line and fix,

@@ -107,9 +107,11 @@ class ObjectReader {
         if (depth == 0)
             object.material = material_of(table, materials_);
         object.shape = read_shape(table, static_cast<Kind>(*kind), object.name, depth);
-        for (const char* key : {"normals", "painted"})
+        for (const char* key : {"normals", "painted", "color"})
             if (depth > 0 && table.has(key))
-                table.fail(key, "is only for meshes that are objects: parts use the normals of their field");
+                table.fail(key, "is only for meshes that are objects: parts have no normals or colours of their own");
+        if (auto* mesh = std::get_if<MeshShape>(&object.shape); mesh && (depth > 0 || table.has("material")))
+            mesh->own_colors = mesh->own_colors.value_or(false);
         table.check_all_read();
         return object;
     }
@@ -160,6 +162,10 @@ class ObjectReader {
                 mesh.sign = signs[*sign];
             mesh.own_normals = table.word("normals", {"field", "mesh"}) != std::size_t{0};
             take(mesh.painted, table.flag("painted"));
+            if (const auto colors = table.word("color", {"none", "own"}))
+                mesh.own_colors = *colors == 1;
+            else if (mesh.painted)
+                mesh.own_colors = false;
             return mesh;
         }
         case Kind::vdb: {

@@ -29,7 +29,7 @@ struct Hits {
     std::vector<Surfel> surfels;   ///< unit space, normals toward the eye; without a normal if the ray missed
     std::vector<float> depths;     ///< along the view axis, scene units
     std::vector<ObjectId> objects; ///< no_object if the ray missed
-    std::vector<float> painted;    ///< in [0, 1]; empty if nothing is painted
+    std::vector<Vec3> colors;      ///< of the mesh, linear light; empty if no mesh has any
     std::vector<Triangle> faces;   ///< of the mesh; empty without one, all corners 0 where snap() found none
     std::vector<float> steps;      ///< map() calls along each ray; empty if not requested
 

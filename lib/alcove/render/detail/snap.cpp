@@ -1,5 +1,7 @@
 #include "alcove/render/detail/snap.h"
 
+#include "alcove/occlusion/detail/directions.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,8 +47,10 @@ class Snapper {
             renderable_.mesh->surface.find_nearest(rays_, far, places_);
             RayBatch left;
             for (std::size_t i = 0; i < rays_.count; ++i) {
-                if (!rays_.hit[i] || rays_.travelled[i] > 2.0f * reach(owner_[i]))
+                if (!rays_.hit[i] || rays_.travelled[i] > 2.0f * reach(owner_[i])) {
+                    missed_.push_back(owner_[i]);
                     continue;
+                }
                 if (renderable_.mesh->objects[places_[i].vertices[0]] == hits_.objects[owner_[i]]) {
                     move(owner_[i], i);
                     continue;
@@ -57,7 +61,12 @@ class Snapper {
             }
             rays_ = left;
         }
+        missed_.insert(missed_.end(), owner_.begin(), owner_.begin() + static_cast<std::ptrdiff_t>(rays_.count));
         rays_.count = 0;
+        if (!hits_.colors.empty())
+            for (const std::size_t sample : missed_)
+                take_nearest_color(sample);
+        missed_.clear();
     }
 
   private:
@@ -79,8 +88,27 @@ class Snapper {
             surfel.normal = toward / length;
         }
         hits_.faces[sample] = places_[i].vertices;
-        if (!hits_.painted.empty())
-            hits_.painted[sample] = interpolated(renderable_.mesh->painted, places_[i]);
+        if (!hits_.colors.empty())
+            hits_.colors[sample] = interpolated(renderable_.mesh->colors, places_[i]);
+    }
+
+    /// Takes the colour from the nearest triangle around the sample. At some outlines, rays meet the field but no
+    /// triangle.
+    void take_nearest_color(std::size_t sample) {
+        RayBatch around;
+        for (int i = 0; i < static_cast<int>(RayBatch::capacity); ++i) {
+            const Vec2 point = fibonacci_point(i, RayBatch::capacity, 0.0f, 0.0f);
+            const Vec3 up = uniform_hemisphere(std::fabs(2.0f * point.x - 1.0f), point.y);
+            around.push_back({hits_.surfels[sample].position, point.x < 0.5f ? -up : up}, 0.0f);
+        }
+        float nearest = 2.0f * reach(sample);
+        renderable_.mesh->surface.find_nearest(around, nearest, places_);
+        for (std::size_t i = 0; i < around.count; ++i)
+            if (around.hit[i] && around.travelled[i] < nearest &&
+                renderable_.mesh->objects[places_[i].vertices[0]] == hits_.objects[sample]) {
+                nearest = around.travelled[i];
+                hits_.colors[sample] = interpolated(renderable_.mesh->colors, places_[i]);
+            }
     }
 
     const Renderable& renderable_;
@@ -91,6 +119,7 @@ class Snapper {
     RayBatch rays_;
     std::array<std::size_t, RayBatch::capacity> owner_;
     std::array<SurfaceHit, RayBatch::capacity> places_;
+    std::vector<std::size_t> missed_; // samples of the batch without a triangle
 };
 
 }
@@ -98,8 +127,8 @@ class Snapper {
 void snap(const Renderable& renderable, const Camera& camera, std::size_t begin, std::size_t end, Hits& hits) {
     Snapper snapper(renderable, camera, hits);
     for (std::size_t sample = begin; sample < end; ++sample) {
-        if (!hits.painted.empty())
-            hits.painted[sample] = 1.0f;
+        if (!hits.colors.empty())
+            hits.colors[sample] = Vec3(1.0f);
         if (hits.objects[sample] != no_object && ground_of(renderable, hits.objects[sample]) == nullptr)
             snapper.add(sample);
     }

@@ -9,75 +9,126 @@
 #include "alcove/vdb/vdb_file.h"
 
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
 
 namespace alcove {
 namespace {
-
-LoadedShape load(const SceneObject& object, const Pose& outer);
 
 void add(Box& box, const Box& other) {
     box.add(other.min);
     box.add(other.max);
 }
 
-void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
-    loaded.mesh = read_mesh(shape.file);
-    loaded.warnings = loaded.mesh.warnings;
-    loaded.triangles = triangulate(loaded.mesh).triangles;
-    for (const Vec3d& p : loaded.mesh.positions)
-        if (is_finite(p))
-            loaded.box.add(loaded.pose(p));
+/// The box of the faces; vertices that no face uses do not count.
+Box box_of_faces(const LoadedMesh& file, const Pose& pose) {
+    Box box;
+    for (const Triangle& triangle : file.triangles)
+        for (const std::uint32_t vertex : triangle)
+            box.add(pose(file.mesh.positions[vertex]));
+    return box;
 }
 
-void load_grid(const GridShape& shape, LoadedShape& loaded) {
-    loaded.stack = read_grids(shape.file, {shape.names});
-    loaded.warnings = loaded.stack.warnings;
-    try {
-        add(loaded.box, posed(outline(LevelStack(loaded.stack), loaded.stack.frame).box, loaded.pose));
-    } catch (const InputError& error) {
-        throw InputError(shape.file.string() + ": " + error.what());
+double bytes_of(const LoadedMesh& file) {
+    const Mesh& mesh = file.mesh;
+    const double vertices = sizeof(Vec3d) * mesh.positions.size() + sizeof(Vec3) * mesh.normals.size();
+    return vertices + sizeof(std::uint32_t) * (mesh.corners.size() + mesh.face_begin.size()) +
+           sizeof(Triangle) * file.triangles.size();
+}
+
+/// Loads shapes; reads each file once.
+class Loader {
+  public:
+    explicit Loader(MemoryEstimate& memory) : memory_(memory) {}
+
+    LoadedShape load(const SceneObject& object, const Pose& outer) {
+        LoadedShape loaded{&object, outer * pose_of(object.placement)};
+        loaded.box = box_of(object.shape, loaded.pose);
+        if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
+            load_mesh(*mesh, loaded);
+        if (const auto* grid = std::get_if<GridShape>(&object.shape))
+            load_grid(*grid, loaded);
+        if (const auto* composite = std::get_if<CompositeShape>(&object.shape))
+            load_parts(*composite, loaded);
+        return loaded;
     }
-}
 
-void load_parts(const CompositeShape& shape, LoadedShape& loaded) {
-    const bool unite = shape.operation == CompositeShape::Operation::unite;
-    for (const SceneObject& object : shape.parts) {
-        loaded.parts.push_back(load(object, loaded.pose));
-        if (!unite && loaded.parts.size() > 1)
-            continue;
-        const Box& box = loaded.parts.back().box;
-        if (box.empty())
-            throw InputError(object.name +
-                             ": is infinite, so it can only be subtracted from other parts: use a large box");
-        add(loaded.box, box);
+  private:
+    void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
+        std::shared_ptr<LoadedMesh>& file = meshes_[shape.file.lexically_normal()];
+        if (!file) {
+            file = std::make_shared<LoadedMesh>(LoadedMesh{read_mesh(shape.file), {}});
+            file->triangles = triangulate(file->mesh).triangles;
+            loaded.warnings = file->mesh.warnings;
+            memory_.add(shape.file.string(), bytes_of(*file));
+            memory_.check();
+            if (!shape.own_colors && may_have_colors(file->mesh))
+                loaded.warnings.emplace_back("its colours are not shown: write color = \"own\" to show them, or "
+                                             "\"none\"");
+        }
+        if (shape.own_colors.value_or(false) && !file->colors) {
+            file->colors = own_colors(file->mesh);
+            const std::vector<std::string>& left_out = file->colors->warnings;
+            loaded.warnings.insert(loaded.warnings.end(), left_out.begin(), left_out.end());
+        }
+        loaded.mesh = file;
+        loaded.box = box_of_faces(*file, loaded.pose);
     }
-    // A blend bulges where faces are flush: by a quarter of its width for two parts, never by more than its width.
-    double bulge = 0.0;
-    for (std::size_t i = 1; unite && i < shape.parts.size() && shape.blend > 0.0; ++i)
-        bulge += std::pow(shape.blend - bulge, 2.0) / (4.0 * shape.blend);
-    bulge *= loaded.pose.scale;
-    loaded.box.min -= bulge;
-    loaded.box.max += bulge;
+
+    void load_grid(const GridShape& shape, LoadedShape& loaded) {
+        const auto [place, is_new] = grids_.try_emplace({shape.file.lexically_normal(), shape.names});
+        LoadedGrid& file = place->second;
+        if (is_new) {
+            file.stack = read_grids(shape.file, {shape.names});
+            loaded.warnings = file.stack.warnings;
+            try {
+                file.box = outline(LevelStack(file.stack), file.stack.frame).box;
+            } catch (const InputError& error) {
+                throw InputError(shape.file.string() + ": " + error.what());
+            }
+        }
+        loaded.stack = file.stack;
+        add(loaded.box, posed(file.box, loaded.pose));
+    }
+
+    void load_parts(const CompositeShape& shape, LoadedShape& loaded) {
+        const bool unite = shape.operation == CompositeShape::Operation::unite;
+        for (const SceneObject& object : shape.parts) {
+            loaded.parts.push_back(load(object, loaded.pose));
+            if (!unite && loaded.parts.size() > 1)
+                continue;
+            const Box& box = loaded.parts.back().box;
+            if (box.empty())
+                throw InputError(object.name +
+                                 ": is infinite, so it can only be subtracted from other parts: use a large box");
+            add(loaded.box, box);
+        }
+        // A blend bulges where faces are flush: by a quarter of its width for two parts, never by more than its width.
+        double bulge = 0.0;
+        for (std::size_t i = 1; unite && i < shape.parts.size() && shape.blend > 0.0; ++i)
+            bulge += std::pow(shape.blend - bulge, 2.0) / (4.0 * shape.blend);
+        bulge *= loaded.pose.scale;
+        loaded.box.min -= bulge;
+        loaded.box.max += bulge;
+    }
+
+    struct LoadedGrid {
+        GridStack stack;
+        Box box; // of its surface
+    };
+    MemoryEstimate& memory_;
+    std::map<std::filesystem::path, std::shared_ptr<LoadedMesh>> meshes_;
+    std::map<std::pair<std::filesystem::path, std::vector<std::string>>, LoadedGrid> grids_; // by file and names
+};
+
 }
 
-LoadedShape load(const SceneObject& object, const Pose& outer) {
-    LoadedShape loaded{&object, outer * pose_of(object.placement)};
-    loaded.box = box_of(object.shape, loaded.pose);
-    if (const auto* mesh = std::get_if<MeshShape>(&object.shape))
-        load_mesh(*mesh, loaded);
-    if (const auto* grid = std::get_if<GridShape>(&object.shape))
-        load_grid(*grid, loaded);
-    if (const auto* composite = std::get_if<CompositeShape>(&object.shape))
-        load_parts(*composite, loaded);
-    return loaded;
-}
-
-}
-
-std::vector<LoadedShape> load_shapes(const Scene& scene) {
+std::vector<LoadedShape> load_shapes(const Scene& scene, MemoryEstimate& memory) {
+    Loader loader(memory);
     std::vector<LoadedShape> shapes;
     for (const SceneObject& object : scene.objects)
-        shapes.push_back(load(object, Pose{}));
+        shapes.push_back(loader.load(object, Pose{}));
     return shapes;
 }
 

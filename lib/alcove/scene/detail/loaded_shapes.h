@@ -1,27 +1,40 @@
-/// Loads the files of the shapes of a scene and computes their boxes. Grids are built later, because their voxels
-/// depend on the size of the whole scene.
+/// Loads the files of the shapes of a scene, each once, and computes the boxes of the shapes. Grids are built later,
+/// because their voxels depend on the size of the whole scene.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
 #include "alcove/mesh/mesh.h"
+#include "alcove/scene/detail/memory_estimate.h"
+#include "alcove/scene/detail/own_colors.h"
 #include "alcove/scene/detail/pose.h"
+
+#include <memory>
 
 namespace alcove {
 
-struct LoadedShape {
-    const SceneObject* object;
-    Pose pose;                         ///< maps the space of the shape to scene space
-    Box box{};                         ///< scene units; empty for infinite shapes
-    Mesh mesh{};                       ///< for mesh shapes
-    std::vector<Triangle> triangles{}; ///< for mesh shapes
-    GridStack stack{};                 ///< for level sets, and for meshes once voxelized
-    std::vector<LoadedShape> parts{};  ///< for composites
-    std::vector<std::string> warnings{};
+/// A mesh file; objects share it.
+struct LoadedMesh {
+    Mesh mesh;
+    std::vector<Triangle> triangles;
+    std::optional<OwnColors> colors{}; ///< set if an object shows them
 };
 
-/// Loads the shapes of all objects. Keeps pointers to the objects. \throw InputError naming the object or its file:
-/// what read_mesh() and read_grids() throw; a plane in a union or as the first part of a difference.
-std::vector<LoadedShape> load_shapes(const Scene& scene);
+struct LoadedShape {
+    const SceneObject* object;
+    Pose pose;                                ///< maps the space of the shape to scene space
+    Box box{};                                ///< scene units; empty for infinite shapes
+    float reach = 0.0f;                       ///< distances up to this must be correct, unit space of the scene
+    bool inside = false;                      ///< whether distances inside must be correct as well
+    std::shared_ptr<const LoadedMesh> mesh{}; ///< for mesh shapes
+    GridStack stack{};                        ///< for level sets, and for meshes once voxelized
+    std::vector<LoadedShape> parts{};         ///< for composites
+    std::vector<std::string> warnings{};      ///< those of a file only at the first shape that uses it
+};
+
+/// Loads the shapes of all objects. Keeps pointers to the objects. Adds the files to `memory`. \throw InputError naming
+/// the object or its file: what read_mesh() and read_grids() throw; a plane in a union or as the first part of a
+/// difference. LimitError if the files exceed the limit.
+std::vector<LoadedShape> load_shapes(const Scene& scene, MemoryEstimate& memory);
 
 /// Calls `visit(loaded)` for every shape and, recursively, its parts.
 template <class Shapes, class Visit>

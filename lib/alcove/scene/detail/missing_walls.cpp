@@ -15,17 +15,17 @@ namespace {
 std::vector<Surfel> points_on_faces(const LoadedShape& loaded, const Frame& own) {
     constexpr std::size_t count = 4096;
     const auto corner = [&](const Triangle& t, int i) {
-        return (loaded.mesh.positions[t[static_cast<std::size_t>(i)]] - own.center) / own.diagonal;
+        return (loaded.mesh->mesh.positions[t[static_cast<std::size_t>(i)]] - own.center) / own.diagonal;
     };
     const auto cross = [&](const Triangle& t) {
         return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
     };
     double area = 0.0;
-    for (const Triangle& t : loaded.triangles)
+    for (const Triangle& t : loaded.mesh->triangles)
         area += glm::length(cross(t));
     std::vector<Surfel> surfels;
     double before = 0.0;
-    for (const Triangle& t : loaded.triangles) {
+    for (const Triangle& t : loaded.mesh->triangles) {
         const Vec3d normal = cross(t);
         const double length = glm::length(normal);
         before += length;
@@ -61,7 +61,7 @@ std::string missing_walls(const LoadedShape& loaded, const AnyField& field, cons
                           const GridOptions& options) {
     constexpr double noticeable = 0.01, percent = 100.0;
     constexpr double resolved_by_floats = 1e-5; // smallest voxel, relative to the diagonal of the scene
-    const Frame own = frame_of(loaded.mesh.box());
+    const Frame own = frame_of(loaded.mesh->mesh.box());
     const auto voxel = static_cast<float>(loaded.stack.levels.front().voxel);
     const bool resolved = double(voxel) * own.diagonal * loaded.pose.scale > resolved_by_floats * frame.diagonal;
     if (loaded.stack.sign == Sign::sheet || !resolved)
@@ -70,10 +70,10 @@ std::string missing_walls(const LoadedShape& loaded, const AnyField& field, cons
     if (share_without_inside(points, loaded, own, field, frame) < noticeable)
         return {};
     std::vector<Vec3> positions;
-    positions.reserve(loaded.mesh.positions.size());
-    for (const Vec3d& p : loaded.mesh.positions)
+    positions.reserve(loaded.mesh->mesh.positions.size());
+    for (const Vec3d& p : loaded.mesh->mesh.positions)
         positions.push_back(own.to_unit(p));
-    const RaySurface surface(positions, loaded.triangles);
+    const RaySurface surface(positions, loaded.mesh->triangles);
     const ThinWalls walls = thin_walls(points, surface, voxel, false);
     // Near an edge, the distance to the far side is proportional to that to the edge. So edges contribute half the
     // share at half the voxel, and cancel out here.
@@ -82,7 +82,8 @@ std::string missing_walls(const LoadedShape& loaded, const AnyField& field, cons
         return {};
     constexpr double rounding = 0.98; // the message rounds the voxel to three digits
     const double needed = rounding * double(walls.voxel);
-    const double finest = finest_voxel(surface_size(loaded.mesh, loaded.triangles), loaded.triangles.size(), options);
+    const double finest =
+        finest_voxel(surface_size(loaded.mesh->mesh, loaded.mesh->triangles), loaded.mesh->triangles.size(), options);
     return fmt::format(
         "walls ({:.0f} % of the surface) are too thin for the voxel of {:.3g}% and have holes: {} a "
         "voxel of {:.3g}%{}",

@@ -1,26 +1,19 @@
-/// Builds the fields of shapes: voxelizes meshes, extends level sets, and places all in the unit space of the scene.
+/// Builds the fields of shapes and places them in the unit space of the scene.
 #pragma once
 
 #include "alcove/field/field.h"
 #include "alcove/field/primitives.h"
 #include "alcove/scene/detail/loaded_shapes.h"
+#include "alcove/scene/detail/shared_grids.h"
 
 namespace alcove {
 
-/// Parameters shared by all fields of a scene.
-struct BuildContext {
-    Frame frame;         ///< maps unit space to scene space
-    float radius;        ///< radius of occlusion, which determines voxels; unit space
-    float reach;         ///< distances up to this must be correct, unit space; 0 if only camera rays need the field
-    double memory_limit; ///< bytes for the grids of each shape
-    Progress progress{}; ///< progress of one grid
-};
+/// Sets the reach of a shape and its parts: `reach` in unit space; with `inside`, inside as well.
+void set_reach(LoadedShape& loaded, float reach, bool inside, const Frame& frame);
 
-/// The field of a shape. Voxelizes a mesh, and extends a level set to the reach; keeps the grid and the warnings in
-/// `loaded`. With `inside`, distances inside are correct up to the reach as well. \throw InputError naming the object
-/// or its file: what voxelize() and extend_levels() throw, and an open surface in a difference or blended union;
-/// LimitError as voxelize().
-AnyField field_of(LoadedShape& loaded, const BuildContext& context, bool inside = false);
+/// The field of a shape in the unit space of `frame`. \throw InputError naming the object or its file: what
+/// SharedGrids::field() throws, and an open surface in a difference or blended union; LimitError as voxelize().
+AnyField field_of(LoadedShape& loaded, const Frame& frame, SharedGrids& grids);
 
 /// The plane of a PlaneShape, in unit space.
 Plane plane_of(const LoadedShape& loaded, const Frame& frame);

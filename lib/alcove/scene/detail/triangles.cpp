@@ -8,22 +8,42 @@
 #include "alcove/scene/detail/corner_normals.h"
 
 #include <array>
-#include <cmath>
 
 namespace alcove {
 namespace {
 
 constexpr float voxel = 1.0f / 256.0f;
 
-/// Linear light of an sRGB byte, in [0, 1] (srgb1999).
-float decoded(std::uint8_t byte) {
-    const float s = static_cast<float>(byte) / 255.0f;
-    return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
+/// The colours of the triangle corners of a mesh: none, or those of its vertices or faces.
+class CornerColors {
+  public:
+    CornerColors(const LoadedMesh& file, const MeshShape& shape, const SceneObject& object) {
+        if (shape.painted && file.mesh.vertex_colors.empty())
+            throw InputError(object.name + ": is painted, but the mesh has no vertex colours");
+        if (shape.painted) {
+            for (const Color& color : file.mesh.vertex_colors)
+                painted_.push_back(linear_light(color));
+            of_vertices_ = &painted_;
+        } else if (shape.own_colors.value_or(false) && file.colors->any()) {
+            const OwnColors& own = *file.colors;
+            of_vertices_ = own.of_vertices.empty() ? nullptr : &own.of_vertices;
+            of_faces_ = own.of_faces.empty() ? nullptr : &own.of_faces;
+            if (of_faces_)
+                faces_ = faces_of_triangles(file.mesh);
+        }
+    }
 
-float brightness(const Color& color) {
-    return (decoded(color[0]) + decoded(color[1]) + decoded(color[2])) / 3.0f;
-}
+    bool any() const { return of_vertices_ || of_faces_; }
+    bool of_faces() const { return of_faces_ != nullptr; }
+    Vec3 operator()(std::size_t triangle, std::uint32_t vertex) const {
+        return of_vertices_ ? (*of_vertices_)[vertex] : of_faces_ ? (*of_faces_)[faces_[triangle]] : Vec3(1.0f);
+    }
+
+  private:
+    std::vector<Vec3> painted_;
+    const std::vector<Vec3>*of_vertices_ = nullptr, *of_faces_ = nullptr;
+    std::vector<std::uint32_t> faces_; // of the triangles
+};
 
 class Collector {
   public:
@@ -33,27 +53,29 @@ class Collector {
     void begin(ObjectId object) { object_ = object; }
 
     void add_mesh(const LoadedShape& loaded, const MeshShape& shape) {
-        if (shape.painted && loaded.mesh.vertex_colors.empty())
-            throw InputError(loaded.object->name + ": is painted, but the mesh has no vertex colours");
-        is_painted_ = is_painted_ || shape.painted;
+        const Mesh& mesh = loaded.mesh->mesh;
+        const std::vector<Triangle>& triangles = loaded.mesh->triangles;
+        const CornerColors colors(*loaded.mesh, shape, *loaded.object);
+        has_colors_ = has_colors_ || colors.any();
         const auto first = static_cast<std::uint32_t>(positions_.size());
-        const auto add_vertex = [&](std::uint32_t vertex, const Vec3& normal) {
-            const Vec3d& p = loaded.mesh.positions[vertex];
+        const auto add_vertex = [&](std::uint32_t vertex, const Vec3& normal, const Vec3& color) {
+            const Vec3d& p = mesh.positions[vertex];
             add_position(is_finite(p) ? frame_.to_unit(loaded.pose(p)) : Vec3(0.0f),
-                         Vec3(loaded.pose.rotation * Vec3d(normal)),
-                         shape.painted ? brightness(loaded.mesh.vertex_colors[vertex]) : 1.0f);
+                         Vec3(loaded.pose.rotation * Vec3d(normal)), color);
         };
-        if (!shape.own_normals) {
-            for (std::uint32_t vertex = 0; vertex < loaded.mesh.positions.size(); ++vertex)
-                add_vertex(vertex, Vec3(0.0f));
-            add_triangles(loaded.triangles, first);
+        if (!shape.own_normals && !colors.of_faces()) {
+            for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
+                add_vertex(vertex, Vec3(0.0f), colors(0, vertex));
+            add_triangles(triangles, first);
             return;
         }
-        // Normals differ between corners, so each corner gets its own vertex.
-        const auto normals = corner_normals(loaded.mesh, loaded.triangles);
-        for (std::size_t f = 0; f < loaded.triangles.size(); ++f) {
+        // Normals and colours differ between corners, so each corner gets its own vertex.
+        std::vector<std::array<Vec3, 3>> normals(triangles.size(), {Vec3(0.0f), Vec3(0.0f), Vec3(0.0f)});
+        if (shape.own_normals)
+            normals = corner_normals(mesh, triangles);
+        for (std::size_t f = 0; f < triangles.size(); ++f) {
             for (std::size_t corner = 0; corner < 3; ++corner)
-                add_vertex(loaded.triangles[f][corner], normals[f][corner]);
+                add_vertex(triangles[f][corner], normals[f][corner], colors(f, triangles[f][corner]));
             const auto at = static_cast<std::uint32_t>(3 * f);
             triangles_.push_back({first + at, first + at + 1, first + at + 2});
         }
@@ -74,7 +96,7 @@ class Collector {
             const Mesh mesh = mesh_zero_surface(sample, voxel);
             const auto first = static_cast<std::uint32_t>(positions_.size());
             for (const Vec3d& p : mesh.positions)
-                add_position(frame_.to_unit(own.to_scene(Vec3(p))), Vec3(0.0f), 1.0f);
+                add_position(frame_.to_unit(own.to_scene(Vec3(p))), Vec3(0.0f), Vec3(1.0f));
             add_triangles(triangulate(mesh).triangles, first);
         } catch (const InputError& error) {
             throw InputError(loaded.object->name + ": " + error.what());
@@ -88,24 +110,24 @@ class Collector {
         for (const Vec2 corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
             add_position(plane.offset * basis.normal +
                              horizon * (corner.x * basis.tangent + corner.y * basis.bitangent),
-                         Vec3(0.0f), 1.0f);
+                         Vec3(0.0f), Vec3(1.0f));
         add_triangles(std::array{Triangle{0, 1, 2}, Triangle{0, 2, 3}}, first);
     }
 
     std::shared_ptr<const RenderableMesh> collected() {
         if (triangles_.empty())
             return nullptr;
-        if (!is_painted_)
-            painted_.clear();
+        if (!has_colors_)
+            colors_.clear();
         return std::make_shared<const RenderableMesh>(RenderableMesh{
-            RaySurface(positions_, triangles_), std::move(objects_), std::move(normals_), std::move(painted_)});
+            RaySurface(positions_, triangles_), std::move(objects_), std::move(normals_), std::move(colors_)});
     }
 
   private:
-    void add_position(const Vec3& p, const Vec3& normal, float painted) {
+    void add_position(const Vec3& p, const Vec3& normal, const Vec3& color) {
         positions_.push_back(p);
         normals_.push_back(normal);
-        painted_.push_back(painted);
+        colors_.push_back(color);
         objects_.push_back(object_);
     }
     void add_triangles(std::span<const Triangle> triangles, std::uint32_t first) {
@@ -114,12 +136,11 @@ class Collector {
     }
 
     const Frame& frame_;
-    std::vector<Vec3> positions_, normals_;
-    std::vector<float> painted_;
+    std::vector<Vec3> positions_, normals_, colors_;
     std::vector<Triangle> triangles_;
     std::vector<ObjectId> objects_;
     ObjectId object_ = no_object;
-    bool is_painted_ = false;
+    bool has_colors_ = false;
 };
 
 }
@@ -135,7 +156,7 @@ std::shared_ptr<const RenderableMesh> triangles_of(const std::vector<LoadedShape
         const AnyField& field = parts[part++].field;
         collector.begin(static_cast<ObjectId>(part));
         const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape);
-        if (mesh && (all || mesh->own_normals || mesh->painted))
+        if (mesh && (all || mesh->own_normals || mesh->painted || mesh->own_colors.value_or(false)))
             collector.add_mesh(loaded, *mesh);
         else if (all)
             collector.add_field(loaded, field);

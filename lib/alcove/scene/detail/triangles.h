@@ -1,4 +1,4 @@
-/// The triangles of a scene, for mesh normals, painted values and exact rays.
+/// The triangles of a scene, for mesh normals, mesh colours and exact rays.
 #pragma once
 
 #include "alcove/render/renderer.h"
@@ -6,7 +6,7 @@
 
 namespace alcove {
 
-/// The triangles of meshes with own normals or painted values; with `all`, those of every object: also other meshes,
+/// The triangles of meshes with own normals or colours; with `all`, those of every object: also other meshes,
 /// other shapes as the zero surface of their fields on voxels of 1/256 of their size, and grounds up to the length of
 /// the longest ray. `parts` are those of the shapes other than planes, in the same order. Null if there are no such
 /// triangles. \throw InputError naming the object: painted without vertex colours, or a sheet that is not a mesh.
