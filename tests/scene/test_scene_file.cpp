@@ -222,6 +222,9 @@ TEST(SceneFile, EveryWrongValueIsNamedWithItsLine) {
     expect_refusal("[[object]]\nshape = \"union\"\n", {"needs parts"});
     expect_refusal("[[object]]\nshape = \"union\"\npart = [{ shape = \"mesh\", file = \"a.ply\", painted = true }]\n",
                    {":3:", "painted", "parts"});
+    expect_refusal("[[object]]\nshape = \"union\"\npart = [{ shape = \"mesh\", file = \"a.ply\", color = \"own\" }]\n",
+                   {":3:", "color", "parts"});
+    expect_refusal("[[object]]\nshape = \"mesh\"\nfile = \"a.ply\"\ncolor = \"red\"\n", {":4:", "none, own"});
     expect_refusal("[[object]]\nshape = \"union\"\nblend = -1\npart = [{ shape = \"box\" }]\n", {":3:", "0 or more"});
 }
 
@@ -230,6 +233,20 @@ TEST(SceneFile, WhatIsNoTomlIsNamedWithItsLine) {
     expect_refusal(std::string("[camera]\n\0\n", 11), {":2", "invalid TOML"});
     expect_refusal(std::string("a = ") + std::string(5000, '['), {"unsupported TOML"});
     EXPECT_THROW(read_scene("/nowhere/scene.toml"), InputError);
+}
+
+TEST(SceneFile, AByteOrderMarkIsSkippedAndUtf16IsNamed) {
+    EXPECT_EQ(scene_from("\xef\xbb\xbf[camera]\nfov = 30\n").camera.fov, 30.0);
+    EXPECT_EQ(scene_from("\xef\xbb\xbf\xef\xbb\xbf# twice\n[camera]\nfov = 30\n").camera.fov, 30.0);
+    expect_refusal("\xef\xbb\xbf[camera]\nfov = 300\n", {":2:", "1 to 170"});
+    const std::string text = "[camera]\nfov = 30\n";
+    for (const bool big : {false, true})
+        for (const bool marked : {false, true}) {
+            std::string wide = !marked ? "" : big ? "\xfe\xff" : "\xff\xfe";
+            for (const char c : text)
+                wide += big ? std::string{'\0', c} : std::string{c, '\0'};
+            expect_refusal(wide, {"scene.toml: is UTF-16 text: save it as UTF-8"});
+        }
 }
 
 TEST(SceneFile, ARefusalIsOneLineWhateverTheNamesHold) {

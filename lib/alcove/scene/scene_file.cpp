@@ -302,13 +302,24 @@ Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
     return scene;
 }
 
+/// \throw InputError for UTF-16, with a byte-order mark or with zero bytes in the first character.
+void refuse_utf16(const FileBytes& bytes) {
+    const std::string_view text = bytes.view();
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.substr(0, 2).find('\0') != text.npos)
+        bytes.fail("is UTF-16 text: save it as UTF-8");
+}
+
 }
 
 Scene read_scene(const std::filesystem::path& file) {
     const FileBytes bytes(file);
+    refuse_utf16(bytes);
     check_toml_depth(bytes);
     try {
-        const toml::table root = toml::parse(bytes.view(), file.string());
+        std::string_view text = bytes.view();
+        while (text.starts_with("\xef\xbb\xbf")) // a byte-order mark, one each time that some editors save
+            text.remove_prefix(3);
+        const toml::table root = toml::parse(text, file.string());
         return read_tables(TomlTable(root, file.string(), "the scene"), file.parent_path());
     } catch (const toml::parse_error& error) {
         throw InputError(fmt::format("{}:{}: invalid TOML: {}", file.string(), error.source().begin.line,
