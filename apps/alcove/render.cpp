@@ -162,14 +162,28 @@ class RenderJob {
     std::vector<std::string> warnings_of(const BuiltScene& built, const Camera& start) const {
         std::vector<std::string> warnings = built.warnings;
         if (covered_ == 0)
-            warnings.emplace_back("the image is empty, since nothing is in front of the camera: leave out --eye and "
-                                  "--look-at");
+            warnings.push_back("the image is empty: " + why_empty());
         const Renderable& renderable = built.renderable;
         if (!two_sided(renderable.field) && renderable.field.map(renderable.frame.to_unit(start.eye())) < 0.0f)
-            warnings.emplace_back(
-                "the camera is inside a solid, where everything is black: move it, or use --sign sheet "
-                "(in a scene file sign = \"sheet\") for a room");
+            warnings.emplace_back("the camera is inside a solid, where everything is black: move it" + room_fix());
         return warnings;
+    }
+
+    std::string why_empty() const {
+        if (options_.scene.eye || options_.scene.look_at)
+            return "nothing is in front of the camera: leave out --eye and --look-at";
+        if (scene_.camera.eye || scene_.camera.look_at)
+            return "nothing is in front of the camera: leave out eye and look_at of [camera]";
+        return "everything is smaller than a pixel or thinner than a voxel: use a larger --size or a finer voxel, or "
+               "aim at a part with --eye and --look-at";
+    }
+
+    /// What else helps if the camera is inside a room.
+    std::string room_fix() const {
+        const std::string kind = extension(options_.scene.input);
+        return kind == ".vdb"    ? ""
+               : kind == ".toml" ? ", or write sign = \"sheet\" for a room"
+                                 : ", or use --sign sheet for a room";
     }
 
     void print_line(const BuiltScene& built) const {

@@ -186,6 +186,27 @@ TEST_F(RenderVerb, FilesOfASceneAreFoundFromItsFolder) {
     EXPECT_EQ(draw({"sub/scene.toml", "-o", "a.png"}).code, done);
 }
 
+TEST_F(RenderVerb, AnEmptyPictureSaysWhatMadeItSo) {
+    write("cube.off", cube_off);
+    const std::vector<std::string> quick{"-o", "a.png", "--no-ground", "--method", "none"};
+    const auto warning = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), quick.begin(), quick.end());
+        const Outcome drawn = draw(arguments);
+        EXPECT_EQ(drawn.code, done) << drawn.err;
+        return drawn.err;
+    };
+    EXPECT_NE(warning({"cube.off", "--eye", "99,0,0", "--look-at", "100,0,0"}).find("leave out --eye"),
+              std::string::npos);
+    write("away.toml", "[camera]\neye = [99, 0, 0]\nlook_at = [100, 0, 0]\n[[object]]\nshape = \"box\"\n");
+    EXPECT_NE(warning({"away.toml"}).find("leave out eye and look_at of [camera]"), std::string::npos);
+    write("specks.toml",
+          "[[object]]\nshape = \"sphere\"\nradius = 1e-4\n[[object]]\nshape = \"sphere\"\nradius = 1e-4\n"
+          "translate = [100, 7, 3]\n");
+    const std::string specks = warning({"specks.toml"});
+    EXPECT_NE(specks.find("smaller than a pixel"), std::string::npos) << specks;
+    EXPECT_EQ(specks.find("leave out"), std::string::npos) << specks;
+}
+
 TEST_F(RenderVerb, WrongScenesAreNamedWithTheMend) {
     write("typo.toml", "[[object]]\nshape = \"sphere\"\nradus = 2\n");
     expect_refusal({"render", "typo.toml", "-o", "a.png"}, bad_input, {"typo.toml:3", "radus", "radius"});
