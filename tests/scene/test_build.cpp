@@ -1,7 +1,10 @@
 #include "scene_text.h"
 
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
+#include "alcove/scene/detail/loaded_shapes.h"
+#include "alcove/scene/detail/shared_grids.h"
 #include "alcove/scene/scene.h"
 #include "shapes.h"
 
@@ -207,6 +210,116 @@ TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
     scene.light.casts_shadow = false;
     EXPECT_LT(distance_at(1.7), 0.68); // a lower bound only, because no larger reach is needed
     std::filesystem::remove_all(file.parent_path());
+}
+
+/// A folder with a tetrahedron, and scenes of many of it in a row.
+class ManyObjects : public testing::Test {
+  protected:
+    ManyObjects() {
+        std::filesystem::create_directories(folder_);
+        std::ofstream(folder_ / "t.off")
+            << "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    }
+    ~ManyObjects() override { std::filesystem::remove_all(folder_); }
+
+    Scene scene(int count, double shrinking, const std::string& voxel) const {
+        Scene scene;
+        scene.occlusion.choose("none");
+        for (int i = 0; i < count; ++i) {
+            MeshShape mesh{.file = folder_ / (i % 2 == 0 ? "t.off" : "../alcove_many/t.off")};
+            if (!voxel.empty())
+                mesh.voxel = Length(voxel);
+            Placement placement{.translation = {2.0 * i, 0.0, 0.0}, .scale = 1.0 - shrinking * i};
+            scene.objects.push_back({"object " + std::to_string(i + 1), mesh, placement});
+        }
+        return scene;
+    }
+
+    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "alcove_many";
+};
+
+TEST_F(ManyObjects, OfOneFileShareItsMeshAndGrid) {
+    Scene many = scene(60, 0.0, "2%");
+    many.objects[1].placement.rotation = {0, 0, 90};
+    forget_peak_resident_bytes();
+    const std::size_t before = peak_resident_bytes();
+    const BuiltScene built = build_scene(many);
+    EXPECT_LT(peak_resident_bytes(), before + 60'000'000);
+    ASSERT_EQ(built.renderable.parts.size(), 60u);
+    const auto distance = [&](const Vec3d& p) {
+        return double(built.renderable.field.map(built.renderable.frame.to_unit(p))) * built.renderable.frame.diagonal;
+    };
+    // Above the face x + y + z = 1, half a unit to the left of the face x = 0, and in front of the turned one.
+    EXPECT_NEAR(distance(Vec3d(18.0, 0, 0) + Vec3d(1.0 / 3.0 + 0.1)), 0.1 * std::sqrt(3.0), 0.01);
+    EXPECT_NEAR(distance({117.9, 0.2, 0.2}), 0.1, 0.01);
+    EXPECT_NEAR(distance({1.8, -0.1, 0.1}), 0.1, 0.01);
+}
+
+TEST_F(ManyObjects, WarnOnceOfWhatTheyShare) {
+    std::ofstream(folder_ / "t.off")
+        << "OFF 5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnan 0 0\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    const BuiltScene built = build_scene(scene(10, 0.0, "2%"));
+    EXPECT_EQ(std::count_if(built.warnings.begin(), built.warnings.end(),
+                            [](const std::string& w) { return w.find("not finite") != std::string::npos; }),
+              1);
+}
+
+TEST_F(ManyObjects, ThatNeedTooMuchMemoryAreRefusedBeforeTheyAreBuilt) {
+    const auto refusal = [](const Scene& scene) -> std::string {
+        try {
+            build_scene(scene);
+            return "built";
+        } catch (const LimitError& error) {
+            return error.what();
+        }
+    };
+    // Each size needs a grid of its own.
+    const std::string message = refusal(scene(4000, 1e-4, "0.1%"));
+    EXPECT_NE(message.find("the scene needs about"), std::string::npos) << message;
+    EXPECT_NE(message.find("alcove_many/t.off needs most"), std::string::npos) << message;
+}
+
+TEST_F(ManyObjects, GetCoarserVoxelsWhereFinerOnesDoNotFit) {
+    const Scene many = scene(12, 1e-2, "");
+    const auto voxels_within = [&](double limit) {
+        MemoryEstimate memory(limit);
+        std::vector<LoadedShape> shapes = load_shapes(many, memory);
+        Box box;
+        for (const LoadedShape& shape : shapes) {
+            box.add(shape.box.min);
+            box.add(shape.box.max);
+        }
+        const Frame frame = frame_of(box);
+        SharedGrids grids(shapes, {frame, 0.01f}, memory);
+        std::vector<float> voxels;
+        for (LoadedShape& shape : shapes) {
+            grids.field(shape);
+            voxels.push_back(shape.stack.levels.front().voxel);
+        }
+        return voxels;
+    };
+    const std::vector<float> fine = voxels_within(4e9), coarse = voxels_within(40e6);
+    for (std::size_t i = 0; i < fine.size(); ++i) {
+        EXPECT_FLOAT_EQ(fine[i], 1.0f / 256.0f);
+        EXPECT_GT(coarse[i], 1.2f * fine[i]);
+    }
+    EXPECT_THROW(voxels_within(1e6), LimitError);
+    EXPECT_THROW(voxels_within(100.0), LimitError) << "the file alone is larger";
+}
+
+/// A vertex that no face uses does not count, wherever it is.
+TEST_F(ManyObjects, StandWhereTheirFacesAre) {
+    std::ofstream(folder_ / "t.off")
+        << "OFF 5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-50 -70 0\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    Scene one = scene(1, 0.0, "");
+    one.ground = SceneGround{};
+    const BuiltScene built = build_scene(one);
+    EXPECT_NEAR(built.renderable.frame.diagonal, std::sqrt(3.0), 1e-12);
+    EXPECT_NEAR(built.renderable.box.min.x, 0.0, 1e-12);
+    const Frame& frame = built.renderable.frame;
+    EXPECT_NEAR(built.renderable.grounds.at(0).plane.map(frame.to_unit({0, 0, 0})), 0.0f, 1e-6f);
+    for (const Vec3d& p : built.points)
+        EXPECT_GT(p.y, -0.1);
 }
 
 void expect_refusal(const std::string& text, std::initializer_list<const char*> parts) {

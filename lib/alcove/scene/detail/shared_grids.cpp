@@ -1,7 +1,6 @@
 #include "alcove/scene/detail/shared_grids.h"
 
 #include "alcove/base/types.h"
-#include "alcove/grid/detail/plan.h"
 #include "alcove/scene/detail/missing_walls.h"
 
 #include <fmt/format.h>
@@ -11,10 +10,12 @@
 namespace alcove {
 namespace {
 
-// Measured: the bricks of a field take half again as much as the OpenVDB grid that they are read from.
+// Measured: a third of the memory that building a grid takes stays, in the field.
+constexpr double kept = 0.4;
+// Measured: the field of a level set takes half again as much memory as its OpenVDB grid.
 constexpr double bytes_over_grid = 2.5;
-// Measured: what the tree and the index of a level take, however small it is.
-constexpr double bytes_per_level = 4e5, most_levels = 10.0;
+// Measured: what a level takes, however small it is.
+constexpr double bytes_per_level = 2e5;
 
 const MeshShape* mesh_of(const LoadedShape& loaded) {
     return std::get_if<MeshShape>(&loaded.object->shape);
@@ -36,18 +37,13 @@ decltype(auto) naming(const std::filesystem::path& file, const Work& work) {
     }
 }
 
-/// Estimated bytes of the grid of a mesh.
-double bytes_of_grid(const LoadedMesh& file, const GridOptions& options) {
-    const LevelPlan plan = plan_levels(file.mesh, file.triangles, options);
-    return plan.bytes + bytes_per_level * plan.levels;
-}
-
 }
 
 SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridContext& context, MemoryEstimate& memory)
     : context_(context), limit_(memory.limit()), limit_of_automatic_(memory.limit()) {
     std::vector<const LoadedShape*> automatic; // with a voxel that may get coarser
     double planned = 0.0;                      // bytes of those
+    std::pair<double, std::string> largest{};  // bytes of the grid that takes most while it is built, and its file
     for_each_shape(shapes, [&](const LoadedShape& loaded) {
         if ((!mesh_of(loaded) && !grid_of(loaded)) || entries_[key_of(loaded)].users++ > 0)
             return;
@@ -56,13 +52,16 @@ SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridConte
             return;
         }
         const MeshShape& mesh = *mesh_of(loaded);
-        const double bytes = naming(mesh.file, [&] { return bytes_of_grid(*loaded.mesh, options_of(loaded).grid); });
-        memory.add(mesh.file.string(), bytes);
+        const LevelPlan plan = plan_of(loaded);
+        memory.add(mesh.file.string(), kept * plan.bytes + bytes_per_level * plan.levels);
+        largest = std::max(largest, {plan.bytes, mesh.file.string()});
         if (mesh.voxel)
             return;
         automatic.push_back(&loaded);
-        planned += bytes;
+        planned += kept * plan.bytes;
     });
+    if (largest.first > 0.0)
+        memory.add(largest.second, (1.0 - kept) * largest.first);
     if (memory.left() < 0.0)
         share_what_is_left(automatic, planned, memory);
 }
@@ -70,16 +69,20 @@ SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridConte
 /// Gives each grid with an automatic voxel an equal part of what the rest of the scene leaves.
 void SharedGrids::share_what_is_left(const std::vector<const LoadedShape*>& automatic, double planned,
                                      const MemoryEstimate& memory) {
-    const double left = memory.left() + planned;
-    limit_of_automatic_ = left / static_cast<double>(automatic.size()) - bytes_per_level * most_levels;
+    limit_of_automatic_ = (memory.left() + planned) / (kept * static_cast<double>(automatic.size()));
     if (automatic.empty() || !(limit_of_automatic_ > 0.0))
         memory.refuse();
     for (const LoadedShape* loaded : automatic)
         try {
-            plan_levels(loaded->mesh->mesh, loaded->mesh->triangles, options_of(*loaded).grid);
+            plan_of(*loaded);
         } catch (const LimitError&) { // no voxel fits
             memory.refuse();
         }
+}
+
+LevelPlan SharedGrids::plan_of(const LoadedShape& loaded) const {
+    return naming(mesh_of(loaded)->file,
+                  [&] { return plan_levels(loaded.mesh->mesh, loaded.mesh->triangles, options_of(loaded).grid); });
 }
 
 float SharedGrids::in_unit_of(const Frame& own, float length, const LoadedShape& loaded) const {

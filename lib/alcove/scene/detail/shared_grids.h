@@ -3,6 +3,7 @@
 
 #include "alcove/field/field.h"
 #include "alcove/field/level_stack.h"
+#include "alcove/grid/detail/plan.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/scene/detail/loaded_shapes.h"
 
@@ -46,6 +47,7 @@ class SharedGrids {
 
     Key key_of(const LoadedShape& loaded) const;
     VoxelizeOptions options_of(const LoadedShape& loaded) const;
+    LevelPlan plan_of(const LoadedShape& loaded) const;
     float in_unit_of(const Frame& own, float length, const LoadedShape& loaded) const;
     void share_what_is_left(const std::vector<const LoadedShape*>& automatic, double planned,
                             const MemoryEstimate& memory);
