@@ -229,6 +229,18 @@ TEST(Png, BackdropIsLightAndCoveredByAlpha) {
     EXPECT_GT(shown.at(0, 1)[0], 50);
 }
 
+TEST(Png, TheBackgroundOfAoAndShadowIsOpen) {
+    const ScratchFolder folder;
+    Image image(1, 3, Pass::ao | Pass::shadow);
+    image.alpha[1] = 0.5f; // half of it black
+    for (const Pass pass : {Pass::ao, Pass::shadow}) {
+        write_png(image, folder / "a.png", pass);
+        const std::vector<std::uint8_t> expected{255, 255, 255, 188, 188,
+                                                 188, 255, 255, 255}; // 188: linear 0.5 in sRGB
+        EXPECT_EQ(decode(folder / "a.png").rgb, expected);
+    }
+}
+
 TEST(ImageFiles, AreWrittenWholeOrNotAtAll) {
     const ScratchFolder folder;
     const Image image = pattern(5, 4);

@@ -48,9 +48,9 @@ class PngPixels {
         case Pass::beauty:
             return encoded(image_.color[i] + left * Vec3(behind));
         case Pass::ao:
-            return encoded(Vec3(image_.ao[i] + left * behind));
+            return encoded(Vec3(image_.ao[i] + left)); // the background is open
         case Pass::shadow:
-            return encoded(Vec3(image_.shadow[i] + left * behind));
+            return encoded(Vec3(image_.shadow[i] + left));
         case Pass::convexity:
             return over(Vec3(image_.convexity[i]));
         case Pass::normal:
