@@ -151,6 +151,31 @@ TEST_F(BallFile, OfAnObjectAreNotTakenForThoseOfOneThatCrossesIt) {
     EXPECT_GT(seen, 500);
 }
 
+/// A coarse field rounds outlines up. What shows there is what the ray meets next: another object, or the ground.
+TEST_F(BallFile, OutlinesAreThoseOfTheTriangles) {
+    std::ofstream(folder_ / "square.off") << "OFF 4 1 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n";
+    const std::string square = "[[object]]\nshape = \"mesh\"\nfile = \"" + (folder_ / "square.off").string() + "\"\n";
+    for (const bool with_another : {false, true}) {
+        Scene scene = scene_from(
+            "[image]\nwidth = 80\nheight = 80\nsamples = 1\n[occlusion]\nmethod = \"none\"\n[camera]\n"
+            "eye = [0, 0, 4]\nlook_at = [0, 0, 0]\nfov = 53.13010235\n" +
+            square + "voxel = 0.2\n" + (with_another ? square + "scale = 2\ntranslate = [0, 0, -0.5]\n" : ""));
+        const Drawn drawn = draw(scene, Pass::object | Pass::depth);
+        for (int y = 0; y < 80; ++y)
+            for (int x = 0; x < 80; ++x) {
+                // Twenty pixels per unit at the depth of the square.
+                const double u = (x - 39.5) / 20.0, v = (y - 39.5) / 20.0, out = std::fmax(std::fabs(u), std::fabs(v));
+                const auto i = static_cast<std::size_t>(80 * y + x);
+                if (std::fabs(out - 1.0) < 1e-3 || out > 1.7)
+                    continue;
+                EXPECT_EQ(drawn.image.object[i], out < 1.0 ? 1.0f : with_another ? 2.0f : 0.0f) << x << ", " << y;
+                if (out < 1.0 || with_another) {
+                    EXPECT_NEAR(drawn.image.depth[i], out < 1.0 ? 4.0f : 4.5f, 1e-4f);
+                }
+            }
+    }
+}
+
 TEST_F(BallFile, ABlendedCutOfAMeshIsThatOfItsShape) {
     write("fine.ply", 5);
     const auto cut = [&](const std::string& ball) {

@@ -162,7 +162,7 @@ Image render(const Renderable& renderable, const Camera& camera, const RenderOpt
             hits.colors.resize(renderable.mesh->colors.empty() ? 0 : hits.surfels.size());
             hits.faces.assign(hits.surfels.size(), {});
             parallel_for(hits.surfels.size(), 16 * RayBatch::capacity,
-                         [&](std::size_t begin, std::size_t end) { snap(renderable, camera, begin, end, hits); });
+                         [&](std::size_t begin, std::size_t end) { snap(renderable, rays, begin, end, hits); });
             if (options.method && need_ao(options.passes))
                 find_contacts(hits.surfels, renderable.mesh->surface, ray_offset(options.settings.radius),
                               [&](std::size_t i, const Triangle& face) { return face == hits.faces[i]; });

@@ -156,8 +156,9 @@ struct RenderableMesh {
 struct Part {
     AnyField field; ///< unit space
     Material material{};
-    bool colored = false; ///< the colours of the mesh replace that of the material
-    bool painted = false; ///< the brightness of the colours of the mesh multiplies ao
+    bool colored = false;      ///< the colours of the mesh replace that of the material
+    bool painted = false;      ///< the brightness of the colours of the mesh multiplies ao
+    bool on_triangles = false; ///< there is no surface but the triangles: nothing where the field rounds its outline up
 };
 
 /// A plane, visible from its front only, that fades into the background.

@@ -75,6 +75,14 @@ float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity)
     return std::max(occludes || convexity ? radius : 0.0f, shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
 }
 
+/// Whether all that a ray can meet are triangles and grounds.
+bool all_have_triangles(const Scene& scene) {
+    return std::all_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
+        const auto* mesh = std::get_if<MeshShape>(&object.shape);
+        return (mesh && mesh->own_normals) || std::holds_alternative<PlaneShape>(object.shape);
+    });
+}
+
 /// Direction of the gradient, by central differences.
 Vec3 gradient_direction(const AnyField& field, const Vec3& p) {
     constexpr float h = 1e-3f;
@@ -174,6 +182,7 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
     std::vector<Ground> grounds;
     const Vec3d up = glm::normalize(scene.camera.up);
     double floor = std::numeric_limits<double>::infinity();
+    const bool only_triangles = all_have_triangles(scene);
     for (LoadedShape& loaded : shapes) {
         const Material& material = loaded.object->material;
         if (std::holds_alternative<PlaneShape>(loaded.object->shape)) {
@@ -184,6 +193,7 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
         if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape)) {
             parts.back().colored = mesh->own_colors.value_or(false) && loaded.mesh->colors->any();
             parts.back().painted = mesh->painted;
+            parts.back().on_triangles = only_triangles;
         }
         if (scene.ground)
             floor = std::min(floor, lowest(loaded, parts.back().field, frame, up));

@@ -108,6 +108,13 @@ void CameraRays::set_ground(const Vec3d& ray, const GroundHit& ground, std::size
     hits.depths[at] = static_cast<float>(ground.distance * frame_.diagonal * glm::dot(ray, camera_.forward()));
 }
 
+void CameraRays::set_background(const Vec3d& ray, std::size_t at, Hits& hits) const {
+    hits.surfels[at] = {Vec3(0.0f), Vec3(0.0f)};
+    hits.objects[at] = no_object;
+    if (const GroundHit ground = meet_ground(ray); ground.object != no_object)
+        set_ground(ray, ground, at, hits);
+}
+
 void CameraRays::trace(const PixelRegion& region, std::size_t begin, std::size_t end, Hits& hits) const {
     const int columns = (region.width + tile_side - 1) / tile_side;
     std::vector<PixelRegion> tiles;

@@ -73,6 +73,11 @@ class CameraRays {
     /// grazing angle.
     void trace(const PixelRegion& region, std::size_t begin, std::size_t end, Hits& hits) const;
 
+    /// Makes a sample show the ground on the ray from the eye, or the background.
+    void set_background(const Vec3d& ray, std::size_t at, Hits& hits) const;
+
+    const Camera& camera() const { return camera_; }
+
   private:
     using Values = RayBatch::Values;
     struct Batch : RayBatch {

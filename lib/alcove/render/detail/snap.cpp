@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace alcove {
 namespace {
@@ -19,9 +20,9 @@ T interpolated(const std::vector<T>& values, const SurfaceHit& hit) {
 
 class Snapper {
   public:
-    Snapper(const Renderable& renderable, const Camera& camera, Hits& hits)
-        : renderable_(renderable), camera_(camera), hits_(hits),
-          eye_((camera.eye() - renderable.frame.center) / renderable.frame.diagonal) {
+    Snapper(const Renderable& renderable, const CameraRays& camera_rays, Hits& hits)
+        : renderable_(renderable), camera_rays_(camera_rays), hits_(hits),
+          eye_((camera_rays.camera().eye() - renderable.frame.center) / renderable.frame.diagonal) {
         const auto reach_of = [](const AnyField& field) { return std::max(3.0f * resolution(field), 1e-3f); };
         if (renderable.parts.empty())
             reaches_.push_back(reach_of(renderable.field));
@@ -30,9 +31,7 @@ class Snapper {
     }
 
     void add(std::size_t sample) {
-        const Vec3 direction(glm::normalize(Vec3d(hits_.surfels[sample].position) - eye_));
-        owner_[rays_.count] = sample;
-        rays_.push_back({hits_.surfels[sample].position - reach(sample) * direction, direction}, 0.0f);
+        start(sample);
         if (rays_.count == RayBatch::capacity)
             flush();
     }
@@ -52,7 +51,7 @@ class Snapper {
                     continue;
                 }
                 if (renderable_.mesh->objects[places_[i].vertices[0]] == hits_.objects[owner_[i]]) {
-                    move(owner_[i], i);
+                    move(owner_[i], i, rays_.travelled[i] - reach(owner_[i]));
                     continue;
                 }
                 owner_[left.count] = owner_[i];
@@ -63,22 +62,63 @@ class Snapper {
         }
         missed_.insert(missed_.end(), owner_.begin(), owner_.begin() + static_cast<std::ptrdiff_t>(rays_.count));
         rays_.count = 0;
-        if (!hits_.colors.empty())
-            for (const std::size_t sample : missed_)
+        for (const std::size_t sample : missed_)
+            if (is_on_triangles(sample))
+                start(sample);
+            else if (!hits_.colors.empty())
                 take_nearest_color(sample);
+        look_further();
         missed_.clear();
     }
 
   private:
+    /// Adds the ray of a sample, from in front of its hit on.
+    void start(std::size_t sample) {
+        const Vec3 direction(glm::normalize(Vec3d(hits_.surfels[sample].position) - eye_));
+        owner_[rays_.count] = sample;
+        rays_.push_back({hits_.surfels[sample].position - reach(sample) * direction, direction}, 0.0f);
+    }
+
+    bool is_on_triangles(std::size_t sample) const {
+        return !renderable_.parts.empty() && renderable_.parts[hits_.objects[sample] - 1u].on_triangles;
+    }
+
+    /// Sets the samples of the batch to the next triangle or the ground on their rays, and empties the batch.
+    void look_further() {
+        renderable_.mesh->surface.find_nearest(rays_, std::numeric_limits<float>::infinity(), places_);
+        for (std::size_t i = 0; i < rays_.count; ++i) {
+            const std::size_t sample = owner_[i];
+            const Vec3 direction(rays_.dx[i], rays_.dy[i], rays_.dz[i]), position = hits_.surfels[sample].position;
+            const float depth = hits_.depths[sample], further = rays_.travelled[i] - reach(sample);
+            camera_rays_.set_background(Vec3d(direction), sample, hits_);
+            const ObjectId object = rays_.hit[i] ? renderable_.mesh->objects[places_[i].vertices[0]] : no_object;
+            const bool is_behind_ground =
+                hits_.objects[sample] != no_object && hits_.depths[sample] < depth + depth_of(further, direction);
+            if (object == no_object || is_behind_ground)
+                continue;
+            const Vec3 normal = glm::normalize(places_[i].normal);
+            hits_.objects[sample] = object;
+            hits_.depths[sample] = depth;
+            hits_.surfels[sample] = {position, glm::dot(normal, direction) > 0.0f ? -normal : normal};
+            move(sample, i, further);
+        }
+        rays_.count = 0;
+    }
+
+    /// The depth of a distance along a ray, scene units.
+    float depth_of(float distance, const Vec3& direction) const {
+        return static_cast<float>(double(distance) * renderable_.frame.diagonal *
+                                  glm::dot(Vec3d(direction), camera_rays_.camera().forward()));
+    }
+
     float reach(std::size_t sample) const { return reaches_[hits_.objects[sample] - 1u]; }
 
-    void move(std::size_t sample, std::size_t i) {
+    /// Moves a sample further along its ray, to triangle i.
+    void move(std::size_t sample, std::size_t i, float further) {
         Surfel& surfel = hits_.surfels[sample];
         const Vec3 direction(rays_.dx[i], rays_.dy[i], rays_.dz[i]);
-        const float further = rays_.travelled[i] - reach(sample);
         surfel.position += further * direction;
-        hits_.depths[sample] += static_cast<float>(double(further) * renderable_.frame.diagonal *
-                                                   glm::dot(Vec3d(direction), camera_.forward()));
+        hits_.depths[sample] += depth_of(further, direction);
         const Vec3 normal = interpolated(renderable_.mesh->normals, places_[i]);
         if (const float length = glm::length(normal); length > 1e-6f) {
             const float away = glm::dot(normal, direction);
@@ -112,7 +152,7 @@ class Snapper {
     }
 
     const Renderable& renderable_;
-    const Camera& camera_;
+    const CameraRays& camera_rays_;
     Hits& hits_;
     Vec3d eye_;
     std::vector<float> reaches_; // by part: how far its triangles may be from its field
@@ -124,8 +164,8 @@ class Snapper {
 
 }
 
-void snap(const Renderable& renderable, const Camera& camera, std::size_t begin, std::size_t end, Hits& hits) {
-    Snapper snapper(renderable, camera, hits);
+void snap(const Renderable& renderable, const CameraRays& camera_rays, std::size_t begin, std::size_t end, Hits& hits) {
+    Snapper snapper(renderable, camera_rays, hits);
     for (std::size_t sample = begin; sample < end; ++sample) {
         if (!hits.colors.empty())
             hits.colors[sample] = Vec3(1.0f);
