@@ -245,7 +245,7 @@ TEST(SceneFile, AByteOrderMarkIsSkippedAndUtf16IsNamed) {
             std::string wide = !marked ? "" : big ? "\xfe\xff" : "\xff\xfe";
             for (const char c : text)
                 wide += big ? std::string{'\0', c} : std::string{c, '\0'};
-            expect_refusal(wide, {"scene.toml: is UTF-16 text: save it as UTF-8"});
+            expect_refusal(wide, {"scene.toml: is text in UTF-16; save it as UTF-8"});
         }
 }
 

@@ -3,6 +3,7 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/text_encoding.h"
 
 #include <algorithm>
 #include <cctype>
@@ -26,6 +27,7 @@ const Format& format_of(const FileBytes& file) {
         return off;
     if (begins_as_stl(file))
         return stl;
+    refuse_wide_text(file);
     std::string extension = file.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -4,6 +4,7 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/formats/file_bytes.h"
+#include "alcove/mesh/formats/text_encoding.h"
 #include "alcove/scene/detail/toml_depth.h"
 #include "alcove/scene/detail/toml_table.h"
 
@@ -302,24 +303,14 @@ Scene read_tables(TomlTable table, const std::filesystem::path& folder) {
     return scene;
 }
 
-/// \throw InputError for UTF-16, with a byte-order mark or with zero bytes in the first character.
-void refuse_utf16(const FileBytes& bytes) {
-    const std::string_view text = bytes.view();
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.substr(0, 2).find('\0') != text.npos)
-        bytes.fail("is UTF-16 text: save it as UTF-8");
-}
-
 }
 
 Scene read_scene(const std::filesystem::path& file) {
     const FileBytes bytes(file);
-    refuse_utf16(bytes);
+    refuse_wide_text(bytes);
     check_toml_depth(bytes);
     try {
-        std::string_view text = bytes.view();
-        while (text.starts_with("\xef\xbb\xbf")) // a byte-order mark, one each time that some editors save
-            text.remove_prefix(3);
-        const toml::table root = toml::parse(text, file.string());
+        const toml::table root = toml::parse(without_byte_order_mark(bytes.view()), file.string());
         return read_tables(TomlTable(root, file.string(), "the scene"), file.parent_path());
     } catch (const toml::parse_error& error) {
         throw InputError(fmt::format("{}:{}: invalid TOML: {}", file.string(), error.source().begin.line,

@@ -81,16 +81,20 @@ FileBytes::FileBytes(const std::filesystem::path& file, std::string_view bytes)
     bytes_[size_] = '\0';
 }
 
+std::size_t FileBytes::line_at(const char* place) const {
+    std::size_t line = 1;
+    for (const char* at = begin(); at < place; ++at)
+        if (*at == '\n' || (*at == '\r' && at[1] != '\n'))
+            ++line;
+    return line;
+}
+
 void FileBytes::fail(std::string_view message) const {
     throw InputError(path_.string() + ": " + in_one_line(std::string(message)));
 }
 
 void FileBytes::fail_at_line(const char* place, std::string_view message) const {
-    std::size_t line = 1;
-    for (const char* at = begin(); at < place; ++at)
-        if (*at == '\n' || (*at == '\r' && at[1] != '\n'))
-            ++line;
-    fail("line " + grouped(line) + ": " + std::string(message));
+    fail("line " + grouped(line_at(place)) + ": " + std::string(message));
 }
 
 void FileBytes::fail_at_byte(const char* place, std::string_view message) const {

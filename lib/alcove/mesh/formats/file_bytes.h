@@ -25,9 +25,12 @@ class FileBytes {
     /// The bytes live at least as long as the returned pointer.
     std::shared_ptr<const void> keeper() const { return bytes_; }
 
+    /// The line of a place in the file, counted from 1. Lines end with LF, CRLF or CR.
+    std::size_t line_at(const char* place) const;
+
     /// \throw InputError "file: message", in one line.
     [[noreturn]] void fail(std::string_view message) const;
-    /// \throw InputError "file: line N: message". Lines end with LF, CRLF or CR.
+    /// \throw InputError "file: line N: message".
     [[noreturn]] void fail_at_line(const char* place, std::string_view message) const;
     /// \throw InputError "file: byte N: message", counted from 0.
     [[noreturn]] void fail_at_byte(const char* place, std::string_view message) const;

@@ -3,31 +3,42 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/file_bytes.h"
+#include "alcove/mesh/formats/text_encoding.h"
 
 #include <fast_float/fast_float.h>
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string_view>
 
 namespace alcove {
 
 struct TextSyntax {
-    char comment = '\0';       ///< it and the rest of its line count as the line end
+    char comment = '\0';       ///< at the start of a token, it and the rest of its line count as the line end
     bool continuation = false; ///< a backslash at the end of a line joins the next one to it
 };
 inline constexpr TextSyntax off_syntax{'#', false};
 inline constexpr TextSyntax obj_syntax{'#', true};
 
-/// Reads a text token by token. Tokens are separated by blanks and line ends (LF, CRLF, CR).
+/// The value of a token that old run-time libraries print for an infinite number or none: "1.#INF00", "-1.#IND",
+/// "1.#QNAN0e+000", or rounded like digits "1.#J" and "1.$"; also "∞". Nothing for other tokens.
+std::optional<double> non_finite_number(std::string_view token);
+
+/// Reads a text token by token. Tokens are separated by blanks and line ends (LF, CRLF, CR). Skips a byte-order mark
+/// before the text and padding after it.
 class TextScanner {
   public:
     TextScanner(const FileBytes& file, const char* begin, TextSyntax syntax = {})
-        : file_(file), at_(begin), end_(file.end()), syntax_(syntax) {}
+        : file_(file), at_(begin == file.begin() ? without_byte_order_mark(file.view()).data() : begin),
+          end_(file.begin() + without_padding(file.view()).size()), syntax_(syntax) {}
 
     const char* at() const { return at_; }
     void move_to(const char* place) { at_ = place; }
-    bool at_token_end() const { return at_ == end_ || is_delimiter(at_); }
+    bool at_token_end() const { return is_token_end(at_); }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+    /// The NUL and Ctrl-Z bytes after the text, and blanks between them.
+    std::size_t padding() const { return static_cast<std::size_t>(file_.end() - end_); }
 
     /// Skips blanks; true at a line end, a comment or the end of the file.
     bool at_line_end() {
@@ -37,11 +48,14 @@ class TextScanner {
     }
     /// Moves past the end of this line.
     void next_line() {
-        bool in_comment = false;
+        bool in_comment = false, token_begins = true;
         for (; at_ < end_ && !is_line_end(*at_); ++at_) {
-            in_comment |= is_comment(*at_);
-            if (!in_comment && is_continuation(at_))
+            in_comment |= token_begins && is_comment(*at_);
+            token_begins = is_blank(*at_);
+            if (!in_comment && is_continuation(at_)) {
                 at_ += continuation_length(at_) - 1;
+                token_begins = true;
+            }
         }
         const bool carriage_return = at_ < end_ && *at_ == '\r';
         if (at_ < end_)
@@ -63,7 +77,7 @@ class TextScanner {
         if (at_line_end())
             return {};
         const char* last = at_;
-        while (last < end_ && !is_delimiter(last))
+        while (!is_token_end(last))
             ++last;
         return {at_, static_cast<std::size_t>(last - at_)};
     }
@@ -84,18 +98,24 @@ class TextScanner {
         at_ += token.size();
         return token;
     }
-    /// The next token as a number; 'nan' and 'inf' are numbers. \throw InputError if it is not one.
+    /// The next token as a number, which need not be finite. \throw InputError if it is not one.
     template <class Real = double>
     Real number(const char* expected) {
         if (at_end())
             fail_early(expected);
         Real value{};
-        const char* first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
-        const auto [last, error] = fast_float::from_chars(first, end_, value);
-        if (error == std::errc::invalid_argument || (last < end_ && !is_delimiter(last)))
+        const char* const last = end_of_number(value);
+        if (last == nullptr)
             fail_token("a number", expected);
         at_ = last;
         return value;
+    }
+    /// The next token of this line, which has one, as a number; not finite if it is not one.
+    double number_or_nan() {
+        double value = 0.0;
+        const char* const last = end_of_number(value);
+        at_ = last != nullptr ? last : at_ + peek().size();
+        return last != nullptr ? value : std::numeric_limits<double>::quiet_NaN();
     }
     /// The next token as an integer. \throw InputError if it is not one or has more than 18 digits.
     std::int64_t integer(const char* expected) {
@@ -110,7 +130,7 @@ class TextScanner {
         for (; digit < end_ && *digit >= '0' && *digit <= '9'; ++digit)
             if (digit - first < longest_integer)
                 value = value * 10 + (*digit - '0');
-        if (digit == first || digit - first > longest_integer || (digit < end_ && !is_delimiter(digit)))
+        if (digit == first || digit - first > longest_integer || !is_token_end(digit))
             fail_token("a whole number", expected);
         at_ = digit;
         return negative ? -value : value;
@@ -132,12 +152,25 @@ class TextScanner {
         return *at == '\\' && syntax_.continuation && at + 1 < end_ && is_line_end(at[1]);
     }
     static std::ptrdiff_t continuation_length(const char* at) { return at[1] == '\r' && at[2] == '\n' ? 3 : 2; }
-    bool is_delimiter(const char* at) const {
-        return is_blank(*at) || is_line_end(*at) || is_comment(*at) || is_continuation(at);
+    bool is_token_end(const char* at) const {
+        return at == end_ || is_blank(*at) || is_line_end(*at) || is_continuation(at);
+    }
+    /// Stores the value of the token at this position and returns its end; null if it is not a number.
+    template <class Real>
+    const char* end_of_number(Real& value) {
+        const char* const first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
+        const auto [last, error] = fast_float::from_chars(first, end_, value);
+        if (error != std::errc::invalid_argument && is_token_end(last))
+            return last;
+        const std::string_view token = peek();
+        const std::optional<double> non_finite = non_finite_number(token);
+        value = static_cast<Real>(non_finite.value_or(0.0));
+        return non_finite ? token.data() + token.size() : nullptr;
     }
     [[noreturn]] void fail_token(const char* kind, const char* expected) {
         const std::string_view token = peek();
-        fail(in_quotes(token) + " is not " + kind + "; " + expected + " is expected here");
+        fail(in_quotes(token) + " is not " + kind + "; " + expected + " is expected here" +
+             (token.find(',') != std::string_view::npos ? ", with a point before decimals" : ""));
     }
 
     const FileBytes& file_;

@@ -3,6 +3,7 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/file_bytes.h"
+#include "alcove/mesh/formats/text_encoding.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
 
 #include <fast_float/fast_float.h>
@@ -132,11 +133,8 @@ void read_file(const std::string& name, const std::filesystem::path& folder, Mat
     }
     try {
         const FileBytes bytes(*file);
-        std::string_view text = bytes.view();
-        if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-            bytes.fail("is UTF-16 text: save it as UTF-8");
-        text.remove_prefix(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
-        parse(text, materials);
+        refuse_wide_text(bytes);
+        parse(without_byte_order_mark(bytes.view()), materials);
     } catch (const std::runtime_error& error) {
         warnings.push_back(std::string(error.what()) + "; its materials are not shown");
     }

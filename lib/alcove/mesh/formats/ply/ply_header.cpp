@@ -1,5 +1,6 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/ply/ply_parse.h"
+#include "alcove/mesh/formats/text_encoding.h"
 
 #include <algorithm>
 #include <charconv>
@@ -31,7 +32,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 
 class HeaderParser {
   public:
-    explicit HeaderParser(const FileBytes& file) : file_(file), at_(file.begin()) {
+    explicit HeaderParser(const FileBytes& file) : file_(file), at_(without_byte_order_mark(file.view()).data()) {
         const std::string_view start = file.view().substr(0, longest_line);
         const std::size_t first_end = start.find_first_of("\r\n");
         // CR alone ends lines only if it ends the first one: binary rows may begin with LF.

@@ -2,6 +2,7 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/ply/ply_parse.h"
+#include "alcove/mesh/formats/text_encoding.h"
 #include "alcove/mesh/normals.h"
 
 #include <algorithm>
@@ -179,7 +180,7 @@ void read_corner_uvs(const PlyElement& faces, Mesh& mesh) {
 }
 
 bool begins_as_ply(const FileBytes& file) {
-    const std::string_view bytes = file.view();
+    const std::string_view bytes = without_byte_order_mark(file.view());
     return bytes.starts_with("ply") && (bytes.size() == 3 || bytes.substr(3, 1).find_first_of(" \t\r\n") == 0);
 }
 

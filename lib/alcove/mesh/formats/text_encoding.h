@@ -1,0 +1,19 @@
+/// What surrounds the characters of a text file: marks of its encoding, and padding after its end.
+#pragma once
+
+#include "alcove/mesh/formats/file_bytes.h"
+
+#include <string_view>
+
+namespace alcove {
+
+/// The text after the byte-order marks that some editors put before UTF-8, one each time they save it.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// The text before the NUL and Ctrl-Z bytes that block devices and DOS programs put after it.
+std::string_view without_padding(std::string_view text);
+
+/// \throw InputError if the file is text in UTF-16 or UTF-32: no format that is read here uses them.
+void refuse_wide_text(const FileBytes& file);
+
+}
