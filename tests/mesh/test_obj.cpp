@@ -106,32 +106,6 @@ TEST_F(Obj, WeightsGiveWayToColoursAndAreTold) {
     EXPECT_EQ(bytes_of("out.obj").find("0.5"), std::string::npos);
 }
 
-TEST_F(Obj, TextureCoordinatesAreKeptPerVertexWhereTheyAgreeElsePerCorner) {
-    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nvt 0 1\n";
-    const Mesh agreeing = read("a.obj", vertices + "f 1/1 2/2 3/3\nf 2/-4 4/4 3/5\n");
-    EXPECT_EQ(agreeing.vertex_uvs, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
-    EXPECT_TRUE(agreeing.corner_uvs.empty());
-    const Mesh split = read("b.obj", vertices + "f 1/1 2/2 3/3\nf 2/1 4/4 3/3\n");
-    EXPECT_TRUE(split.vertex_uvs.empty());
-    EXPECT_EQ(split.corner_uvs, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {0, 0}, {1, 1}, {0, 1}}));
-    const Mesh partly = read("c.obj", vertices + "f 1 2 3\nf 2/2 4/4 3/3\n");
-    EXPECT_EQ(partly.corner_uvs, (std::vector<Vec2>{{0, 0}, {0, 0}, {0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-    ASSERT_EQ(partly.warnings.size(), 1u);
-    EXPECT_NE(partly.warnings[0].find("3 face corners have no texture"), std::string::npos);
-}
-
-TEST_F(Obj, NormalsOfOneVertexAreSummedOnceEach) {
-    // Vertex 1 has the normal z three times and x once; the sum of the distinct ones is halfway between them.
-    const Mesh mesh = read("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 4\nvn 2 0 0\nvn 0 0 1\n"
-                                     "f 1//1 2//1 3//1\nf 1//3 2//1 3//1\nf 1//1 3//1 2//1\nf 1//2 3//-3 4//2\n");
-    const float half = std::sqrt(0.5f);
-    EXPECT_NEAR(glm::length(mesh.normals[0] - Vec3(half, 0, half)), 0.0f, 1e-6f);
-    EXPECT_EQ(mesh.normals[1], Vec3(0, 0, 1));
-    EXPECT_EQ(mesh.normals[3], Vec3(1, 0, 0));
-    ASSERT_EQ(mesh.warnings.size(), 1u);
-    EXPECT_NE(mesh.warnings[0].find("1 vertex has more than one normal"), std::string::npos) << mesh.warnings[0];
-}
-
 TEST_F(Obj, FacesMayComeBeforeTheirVertices) {
     EXPECT_EQ(read("in.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").corners, (std::vector<std::uint32_t>{0, 1, 2}));
 }
@@ -193,8 +167,21 @@ TEST_F(Obj, LinesOfUnknownKeywordsAreKeptAndCounted) {
     const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nzz top\nzz 3\nf 1 2 3\n";
     const Mesh mesh = read("in.obj", text);
     ASSERT_EQ(mesh.warnings.size(), 1u);
-    EXPECT_NE(mesh.warnings[0].find("2 lines do not begin with an OBJ keyword, the first with 'zz'"),
+    EXPECT_NE(mesh.warnings[0].find("2 lines do not begin with an OBJ keyword, the first is line 4 with 'zz'"),
               std::string::npos);
     write_mesh(mesh, path("out.obj"));
     EXPECT_EQ(bytes_of("out.obj"), text);
+}
+
+TEST_F(Obj, AllKeywordsOfTheFormatAreKnown) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for (const char* keyword :
+         {"vp",   "deg",   "bmat",   "step",   "cstype",     "p",         "l",     "curv",  "curv2",    "surf",
+          "parm", "trim",  "hole",   "scrv",   "sp",         "end",       "con",   "g",     "s",        "mg",
+          "o",    "bevel", "lod",    "usemtl", "shadow_obj", "trace_obj", "ctech", "stech", "c_interp", "d_interp",
+          "call", "csh",   "mtllib", "maplib", "usemap",     "bsp",       "bzp",   "cdc",   "cdp",      "res"})
+        text += std::string(keyword) + " 1\n";
+    const Mesh mesh = read("in.obj", text);
+    EXPECT_TRUE(mesh.warnings.empty());
+    EXPECT_EQ(mesh.vertex_count(), 3u);
 }

@@ -31,14 +31,15 @@ bool can_write_mesh(const std::filesystem::path& file);
 /// Each of `added_comments` replaces the comments of the file that begin with the same word. For other inputs,
 /// coordinates are float, or double if float would move a vertex by more than 1e-6 of the diagonal.
 ///
-/// OBJ: writes the text of an OBJ input. It changes only if there are `added_colors`: they replace whatever follows
-/// x y z on the `v` lines, including a fourth coordinate. No comments are added to it. For other inputs, numbers
+/// OBJ: writes the text of an OBJ input. `added_colors` replace whatever follows x y z on the `v` lines, including a
+/// fourth coordinate. In another folder, relative names of other files (mtllib, maplib, shadow_obj, trace_obj) change to
+/// lead to the same files, if these exist. Nothing else changes, and no comments are added. For other inputs, numbers
 /// are the shortest decimals that read back as the same float if the value is one, otherwise as the same double.
 ///
 /// The contents of the input are written even if the fields of the Mesh have changed: reset `Mesh::source` after
 /// moving, adding or removing vertices or faces.
 ///
-/// \return what the format could not store, one message each; empty if nothing was lost.
+/// \return what the format could not store and which names changed, one message each; empty if there is nothing to say.
 /// \throw InputError for another extension, with the ones that work; IoError if the file cannot be written.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 

@@ -23,7 +23,7 @@ bool begins_as_obj(const FileBytes& file);
 bool begins_as_off(const FileBytes& file);
 bool begins_as_stl(const FileBytes& file);
 
-// Each returns what the format could not store, one message each, and throws IoError.
+// Each returns the messages of write_mesh() and throws IoError.
 std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file);
 std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file);
 

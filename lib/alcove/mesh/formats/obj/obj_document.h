@@ -2,8 +2,10 @@
 #pragma once
 
 #include "alcove/mesh/detail/source.h"
+#include "alcove/mesh/formats/text_encoding.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,10 +15,12 @@ namespace alcove {
 class ObjDocument : public SourceDocument {
   public:
     std::string text;
+    std::filesystem::path folder;          ///< that of the file, from which it names other files
     std::vector<std::size_t> vertex_lines; ///< byte offset of the 'v' of each vertex, in file order
+    std::vector<std::size_t> file_lines;   ///< byte offset of each keyword that is followed by names of files
     bool has_comment(std::string_view beginning) const override {
-        return text.find("\n# " + std::string(beginning)) != std::string::npos ||
-               text.starts_with("# " + std::string(beginning));
+        const std::string line = "# " + std::string(beginning);
+        return text.find("\n" + line) != std::string::npos || without_byte_order_mark(text).starts_with(line);
     }
 
     /// The faces from `first_face` to the next use have the material `name`.
@@ -27,7 +31,8 @@ class ObjDocument : public SourceDocument {
     std::vector<MaterialUse> material_uses;  ///< in file order
     std::vector<std::string> material_files; ///< what follows each 'mtllib': one name or several
 
-    std::size_t weights = 0; ///< vertices whose fourth coordinate is not 1
+    std::size_t weights = 0;    ///< vertices whose fourth coordinate is not 1
+    std::size_t mrgb_lines = 0; ///< comments that hold colours
 
     /// Lines that a Mesh cannot represent: a description ("'usemtl' lines") and a count above 0.
     std::vector<std::pair<std::string, std::size_t>> other_lines;

@@ -3,41 +3,20 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/formats/obj/obj_keywords.h"
+#include "alcove/mesh/formats/obj/obj_mrgb.h"
+#include "alcove/mesh/formats/obj/obj_values.h"
 #include "alcove/mesh/formats/text_scanner.h"
 #include "alcove/mesh/normals.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
+#include <limits>
+#include <span>
 
 namespace alcove {
 namespace {
-
-/// Keywords of lines that are kept as text only.
-constexpr std::array<std::string_view, 37> text_keywords{
-    "usemtl",    "mtllib", "g",      "o",     "s",        "l",        "p",    "vp",     "mg",     "deg",
-    "bmat",      "step",   "cstype", "curv",  "curv2",    "surf",     "parm", "trim",   "hole",   "scrv",
-    "sp",        "end",    "con",    "bevel", "c_interp", "d_interp", "lod",  "maplib", "usemap", "shadow_obj",
-    "trace_obj", "ctech",  "stech",  "call",  "csh",      "res",      "bzp"};
-
-/// The texture coordinate and normal of a corner, counted from 1; 0 for none.
-struct CornerReference {
-    std::uint32_t uv = 0, normal = 0;
-};
-
-/// The largest index of one kind and its position. It is checked at the end, as faces may precede their vertices.
-struct LargestIndex {
-    std::int64_t index = 0;
-    const char* place = nullptr;
-};
-
-/// Ordered by vertex, then by value, to find the distinct normals of each vertex.
-struct VertexNormal {
-    std::uint32_t vertex;
-    float x, y, z;
-    auto operator<=>(const VertexNormal&) const = default;
-};
 
 class ObjReader {
   public:
@@ -47,12 +26,10 @@ class ObjReader {
     Mesh read() {
         for (; !text_.at_end(); text_.next_line())
             read_line();
-        check_range(largest_vertex_, mesh_.vertex_count(), "vertices");
-        check_range(largest_uv_, uvs_.size(), "texture coordinates");
-        check_range(largest_normal_, normals_.size(), "normals");
-        finish_colors();
-        finish_uvs();
-        finish_normals();
+        check_vertex_range();
+        add_values(mesh_, values_, file_);
+        add_mrgb();
+        warn_of_rest();
         finish_document();
         return std::move(mesh_);
     }
@@ -63,28 +40,16 @@ class ObjReader {
         const std::string_view keyword = text_.peek();
         text_.move_to(begin + keyword.size());
         if (keyword == "v") {
-            document_->vertex_lines.push_back(static_cast<std::size_t>(begin - file_.begin()));
+            document_->vertex_lines.push_back(offset_of(begin));
             read_vertex();
         } else if (keyword == "f" || keyword == "fo") {
             read_face();
         } else if (keyword == "vt") {
-            read_uv();
+            read_uv(begin);
         } else if (keyword == "vn") {
-            Vec3d n;
-            for (int c = 0; c < 3; ++c)
-                n[c] = number_on_line("a normal");
-            normals_.push_back(unit_or_zero(n));
-            check_line_end();
+            read_normal(begin);
         } else {
-            if (keyword == "usemtl")
-                document_->material_uses.push_back({mesh_.face_count(), rest_of_line()});
-            else if (keyword == "mtllib")
-                document_->material_files.push_back(rest_of_line());
-            const auto known = std::find(text_keywords.begin(), text_keywords.end(), keyword);
-            if (known != text_keywords.end())
-                ++text_lines_[static_cast<std::size_t>(known - text_keywords.begin())];
-            else if (unknown_lines_++ == 0)
-                first_unknown_ = keyword;
+            read_other(keyword);
         }
     }
 
@@ -96,24 +61,57 @@ class ObjReader {
         return first == line.npos ? "" : std::string(line.substr(first, line.find_last_not_of(" \t") + 1 - first));
     }
 
-    double number_on_line(const char* expected) {
-        if (text_.at_line_end())
-            text_.fail(std::string("the line ends early: ") + expected + " is missing; export the file again");
-        return text_.number(expected);
+    void read_other(std::string_view keyword) {
+        if (keyword == "usemtl")
+            document_->material_uses.push_back({mesh_.face_count(), rest_of_line()});
+        else if (keyword == "mtllib")
+            document_->material_files.push_back(rest_of_line());
+        if (const auto known = obj_text_keyword(keyword)) {
+            ++text_lines_[*known];
+            if (names_files(keyword))
+                document_->file_lines.push_back(offset_of(keyword.data()));
+            return;
+        }
+        if (hides_data_keyword(keyword)) {
+            text_.move_to(keyword.data());
+            text_.fail(in_quotes(keyword) + " is not an OBJ keyword; remove what is before or after the keyword in it");
+        }
+        if (unknown_lines_++ == 0)
+            first_unknown_ = keyword;
     }
 
-    void check_line_end() {
-        if (!text_.at_line_end())
-            text_.fail("unexpected " + in_quotes(text_.peek()) + " where the line should end; export the file again");
+    std::size_t offset_of(const char* place) const { return static_cast<std::size_t>(place - file_.begin()); }
+
+    /// Reads the rest of the line; what is not a number is not finite. Whether there are from `least` to
+    /// `values.size()` tokens, all of them finite numbers.
+    bool read_values(std::span<double> values, std::size_t least) {
+        std::size_t count = 0;
+        bool finite = true;
+        for (; !text_.at_line_end(); ++count) {
+            const double value = text_.number_or_nan();
+            finite &= std::isfinite(value);
+            if (count < values.size())
+                values[count] = value;
+        }
+        return finite && count >= least && count <= values.size();
     }
 
-    void read_uv() {
-        const double u = number_on_line("a texture coordinate");
-        const double v = text_.at_line_end() ? 0.0 : text_.number("a texture coordinate");
-        if (!text_.at_line_end())
-            text_.number("a third texture coordinate");
-        uvs_.push_back(Vec2(static_cast<float>(u), static_cast<float>(v)));
-        check_line_end();
+    void read_uv(const char* line) {
+        std::array<double, 3> values{};
+        if (!read_values(values, 1))
+            values_.damaged_uvs.add(line);
+        const auto finite_or_zero = [](double value) {
+            return std::isfinite(value) ? static_cast<float>(value) : 0.0f;
+        };
+        values_.uvs.emplace_back(finite_or_zero(values[0]), finite_or_zero(values[1]));
+    }
+
+    void read_normal(const char* line) {
+        constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+        std::array<double, 3> values{missing, missing, missing};
+        if (!read_values(values, 3))
+            values_.damaged_normals.add(line);
+        values_.normals.push_back(unit_or_zero({values[0], values[1], values[2]}));
     }
 
     void read_vertex() {
@@ -127,8 +125,8 @@ class ObjReader {
         mesh_.positions.push_back({values[0], values[1], values[2]});
         document_->weights += count == 4 && values[3] != 1.0;
         if (count >= 6) {
-            colors_.resize(mesh_.vertex_count() - 1, no_color);
-            colors_.push_back({values[3], values[4], values[5], count == 7 ? values[6] : -1.0});
+            values_.colors.resize(mesh_.vertex_count() - 1, ObjValues::no_color);
+            values_.colors.push_back({values[3], values[4], values[5], count == 7 ? values[6] : -1.0});
         }
     }
 
@@ -136,14 +134,12 @@ class ObjReader {
         while (!text_.at_line_end()) {
             const char* const place = text_.at();
             const char* at = place;
+            const std::uint32_t vertex = vertex_at(at);
             CornerReference reference;
-            const std::uint32_t vertex = index_at(at, mesh_.vertex_count(), largest_vertex_, place);
             if (*at == '/') {
-                ++at;
-                if (*at != '/')
-                    reference.uv = index_at(at, uvs_.size(), largest_uv_, place) + 1;
+                reference.uv = reference_at(++at, values_.uvs.size(), values_.uv_references);
                 if (*at == '/')
-                    reference.normal = index_at(++at, normals_.size(), largest_normal_, place) + 1;
+                    reference.normal = reference_at(++at, values_.normals.size(), values_.normal_references);
             }
             text_.move_to(at);
             if (!text_.at_token_end()) {
@@ -151,11 +147,9 @@ class ObjReader {
                 fail_corner();
             }
             mesh_.corners.push_back(vertex);
-            has_uvs_ |= reference.uv != 0;
-            has_normals_ |= reference.normal != 0;
-            if (has_uvs_ || has_normals_) {
-                references_.resize(mesh_.corners.size() - 1);
-                references_.push_back(reference);
+            if (reference.uv != 0 || reference.normal != 0 || !values_.corners.empty()) {
+                values_.corners.resize(mesh_.corners.size() - 1);
+                values_.corners.push_back(reference);
             }
         }
         close_face(mesh_);
@@ -166,128 +160,102 @@ class ObjReader {
                                              "vertex//normal or vertex/uv/normal are expected");
     }
 
-    /// The index at `at`, counted from 0; a negative one counts back from the last of the `so_far` items read.
-    std::uint32_t index_at(const char*& at, std::size_t so_far, LargestIndex& largest, const char* place) {
+    /// The signed whole number at `at`, limited to the range of an index; moves past it.
+    std::int64_t integer_at(const char*& at) {
         const bool negative = *at == '-';
         at += negative ? 1 : 0;
         const char* const first = at;
-        std::int64_t count = 0;
+        std::int64_t value = 0;
         for (; *at >= '0' && *at <= '9'; ++at)
-            count = std::min<std::int64_t>(count * 10 + (*at - '0'), beyond_index);
+            value = std::min<std::int64_t>(value * 10 + (*at - '0'), beyond_index);
         if (at == first)
             fail_corner();
-        const std::int64_t index = negative ? static_cast<std::int64_t>(so_far) + 1 - count : count;
-        if (count == 0 || index < 1 || index >= beyond_index)
-            text_.fail("index " + in_quotes({negative ? first - 1 : first, at}) +
+        return negative ? -value : value;
+    }
+
+    /// The vertex at `at`, counted from 0; a negative index counts back from the last vertex read.
+    std::uint32_t vertex_at(const char*& at) {
+        const char* const place = at;
+        const std::int64_t value = integer_at(at);
+        const std::int64_t index = value < 0 ? static_cast<std::int64_t>(mesh_.vertex_count()) + 1 + value : value;
+        if (index < 1 || index >= beyond_index)
+            text_.fail("index " + in_quotes({place, at}) +
                        " is out of range: indices count from 1, or back from -1; export the file again");
-        if (index > largest.index)
-            largest = {index, place};
+        if (index > largest_vertex_) {
+            largest_vertex_ = index;
+            largest_vertex_at_ = place;
+        }
         return static_cast<std::uint32_t>(index - 1);
     }
 
-    void check_range(const LargestIndex& largest, std::size_t count, const char* what) const {
-        if (largest.index > static_cast<std::int64_t>(count))
-            file_.fail_at_line(largest.place, "index " + std::to_string(largest.index) +
-                                                  " is out of range: the file has " + grouped(count) + " " + what +
-                                                  "; export it again");
+    /// The reference at `at` to one of the texture coordinates or normals, counted from 1; 0 if there is none.
+    std::uint32_t reference_at(const char*& at, std::size_t so_far, References& references) {
+        if (*at != '-' && !(*at >= '0' && *at <= '9'))
+            return 0;
+        const char* const place = at;
+        const std::int64_t value = integer_at(at);
+        const std::int64_t index = value < 0 ? static_cast<std::int64_t>(so_far) + 1 + value : value;
+        if (index < 1 || index >= beyond_index) {
+            if (references.missing++ == 0)
+                references.missing_at = place;
+            return 0;
+        }
+        if (index > references.largest) {
+            references.largest = index;
+            references.largest_at = place;
+        }
+        return static_cast<std::uint32_t>(index);
     }
 
-    void finish_colors() {
-        if (colors_.empty())
-            return;
-        colors_.resize(mesh_.vertex_count(), no_color);
-        double largest = 0.0;
-        std::size_t without = 0;
-        for (const auto& color : colors_)
-            largest = std::max({largest, color[0], color[1], color[2]});
-        const double scale = largest > 1.0 ? 1.0 : 255.0;
-        const auto byte = [scale](double value) { return color_byte(value * scale); };
-        for (const auto& [r, g, b, a] : colors_) {
-            const bool colored = r >= 0.0 || g >= 0.0 || b >= 0.0;
-            without += !colored;
-            mesh_.vertex_colors.push_back(colored
-                                              ? Color{byte(r), byte(g), byte(b), a < 0.0 ? std::uint8_t(255) : byte(a)}
-                                              : Color{255, 255, 255, 255});
-        }
-        if (without > 0)
-            mesh_.warnings.push_back(counted(without, "vertex has", "vertices have") +
-                                     " no colour, unlike others; white is used");
+    void check_vertex_range() const {
+        if (largest_vertex_ > static_cast<std::int64_t>(mesh_.vertex_count()))
+            file_.fail_at_line(largest_vertex_at_, "index " + std::to_string(largest_vertex_) +
+                                                       " is out of range: the file has " +
+                                                       grouped(mesh_.vertex_count()) + " vertices; export it again");
     }
 
-    void finish_uvs() {
-        if (!has_uvs_)
+    void add_mrgb() {
+        MrgbColors mrgb = read_mrgb(without_byte_order_mark(file_.view()));
+        document_->mrgb_lines = mrgb.lines;
+        if (mrgb.lines == 0)
             return;
-        references_.resize(mesh_.corners.size());
-        std::size_t without = 0;
-        std::vector<std::uint32_t> first(mesh_.vertex_count(), unset);
-        bool one_per_vertex = true;
-        for (std::size_t c = 0; c < references_.size(); ++c) {
-            const std::uint32_t uv = references_[c].uv;
-            std::uint32_t& known = first[mesh_.corners[c]];
-            without += uv == 0;
-            if (known == unset)
-                known = uv;
-            one_per_vertex &= known == uv || (known != 0 && uv != 0 && uvs_[known - 1] == uvs_[uv - 1]);
-        }
-        const auto value = [&](std::uint32_t uv) { return uv == 0 || uv == unset ? Vec2(0.0f) : uvs_[uv - 1]; };
-        if (one_per_vertex)
-            for (const std::uint32_t uv : first)
-                mesh_.vertex_uvs.push_back(value(uv));
+        const std::string unused = "the colours in '#MRGB' lines are not used: ";
+        if (!mesh_.vertex_colors.empty())
+            mesh_.warnings.push_back(unused + "the vertex lines have colours too");
+        else if (mrgb.damaged_lines > 0)
+            mesh_.warnings.push_back(unused + grouped(mrgb.damaged_lines) + " of " + grouped(mrgb.lines) +
+                                     " lines cannot be read");
+        else if (mrgb.colors.size() != mesh_.vertex_count())
+            mesh_.warnings.push_back(unused + "there are " + grouped(mrgb.colors.size()) + " for " +
+                                     counted(mesh_.vertex_count(), "vertex", "vertices"));
         else
-            for (const CornerReference& reference : references_)
-                mesh_.corner_uvs.push_back(value(reference.uv));
-        if (without > 0)
-            mesh_.warnings.push_back(counted(without, "face corner has", "face corners have") +
-                                     " no texture coordinate, unlike others; (0, 0) is used");
+            mesh_.vertex_colors = std::move(mrgb.colors);
     }
 
-    /// A vertex with several normals gets the normalized sum of the distinct ones.
-    void finish_normals() {
-        if (!has_normals_)
-            return;
-        references_.resize(mesh_.corners.size());
-        std::vector<std::uint32_t> first(mesh_.vertex_count(), 0);
-        std::vector<VertexNormal> others;
-        for (std::size_t c = 0; c < references_.size(); ++c) {
-            const std::uint32_t normal = references_[c].normal;
-            std::uint32_t& known = first[mesh_.corners[c]];
-            if (known == 0)
-                known = normal;
-            else if (normal != 0 && normal != known && normals_[normal - 1] != normals_[known - 1]) {
-                const Vec3& n = normals_[normal - 1];
-                others.push_back({mesh_.corners[c], n.x, n.y, n.z});
-            }
+    void warn_of_rest() {
+        if (unknown_lines_ > 0) {
+            const std::string first = in_quotes(first_unknown_);
+            if (mesh_.vertex_count() == 0)
+                file_.fail_at_line(first_unknown_.data(), first + " is not an OBJ keyword; is this an OBJ file?");
+            mesh_.warnings.push_back(counted(unknown_lines_, "line does", "lines do") +
+                                     " not begin with an OBJ keyword, the first is line " +
+                                     grouped(file_.line_at(first_unknown_.data())) + " with " + first +
+                                     "; kept as text");
         }
-        std::sort(others.begin(), others.end());
-        others.erase(std::unique(others.begin(), others.end()), others.end());
-        std::vector<Vec3d> sums;
-        sums.reserve(first.size());
-        for (const std::uint32_t normal : first)
-            sums.push_back(normal == 0 ? Vec3d(0.0) : Vec3d(normals_[normal - 1]));
-        std::size_t several = 0;
-        for (std::size_t i = 0; i < others.size(); ++i) {
-            sums[others[i].vertex] += Vec3d(others[i].x, others[i].y, others[i].z);
-            several += i == 0 || others[i].vertex != others[i - 1].vertex;
-        }
-        for (const Vec3d& sum : sums)
-            mesh_.normals.push_back(unit_or_zero(sum));
-        if (several > 0)
-            mesh_.warnings.push_back(counted(several, "vertex has", "vertices have") +
-                                     " more than one normal; the direction of their sum is used");
+        if (text_.padding() > 0)
+            mesh_.warnings.push_back(counted(text_.padding(), "byte", "bytes") +
+                                     " (NUL or Ctrl-Z) after the last line left out");
     }
 
     void finish_document() {
-        if (unknown_lines_ > 0)
-            mesh_.warnings.push_back(counted(unknown_lines_, "line does", "lines do") +
-                                     " not begin with an OBJ keyword, the first with " + in_quotes(first_unknown_) +
-                                     "; kept as text");
-        for (std::size_t k = 0; k < text_keywords.size(); ++k)
+        for (std::size_t k = 0; k < obj_text_keywords.size(); ++k)
             if (text_lines_[k] > 0)
-                document_->other_lines.emplace_back(in_quotes(text_keywords[k]) + " lines", text_lines_[k]);
+                document_->other_lines.emplace_back(in_quotes(obj_text_keywords[k]) + " lines", text_lines_[k]);
         if (unknown_lines_ > 0)
             document_->other_lines.emplace_back("lines of unknown keywords", unknown_lines_);
         document_->text = file_.view();
-        std::size_t comments = document_->text.starts_with('#');
+        document_->folder = file_.path().parent_path();
+        std::size_t comments = without_byte_order_mark(document_->text).starts_with('#');
         for (std::size_t at = 0; (at = document_->text.find("\n#", at)) != std::string::npos; ++at)
             ++comments;
         if (comments > 0)
@@ -296,20 +264,15 @@ class ObjReader {
     }
 
     static constexpr std::int64_t beyond_index = std::int64_t(1) << 32;
-    static constexpr std::uint32_t unset = 0xffffffffu;
-    static constexpr std::array<double, 4> no_color{-1.0, -1.0, -1.0, -1.0};
 
     const FileBytes& file_;
     TextScanner text_;
     std::shared_ptr<ObjDocument> document_;
     Mesh mesh_;
-    std::vector<Vec2> uvs_;
-    std::vector<Vec3> normals_;
-    std::vector<std::array<double, 4>> colors_;
-    std::vector<CornerReference> references_; ///< one per corner; empty until a corner has one
-    bool has_uvs_ = false, has_normals_ = false;
-    LargestIndex largest_vertex_, largest_uv_, largest_normal_;
-    std::array<std::size_t, text_keywords.size()> text_lines_{};
+    ObjValues values_;
+    std::int64_t largest_vertex_ = 0; ///< checked at the end, as faces may precede their vertices
+    const char* largest_vertex_at_ = nullptr;
+    std::array<std::size_t, obj_text_keywords.size()> text_lines_{};
     std::size_t unknown_lines_ = 0;
     std::string_view first_unknown_;
 };
@@ -322,7 +285,7 @@ bool begins_as_obj(const FileBytes& file) {
         return false;
     const std::string_view keyword = text.peek();
     return keyword == "v" || keyword == "vt" || keyword == "vn" || keyword == "f" ||
-           std::find(text_keywords.begin(), text_keywords.end(), keyword) != text_keywords.end();
+           obj_text_keyword(keyword).has_value();
 }
 
 Mesh read_obj(const FileBytes& file) {

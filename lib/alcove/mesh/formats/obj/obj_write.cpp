@@ -2,6 +2,7 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/formats/obj/obj_file_names.h"
 #include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/formats/text_scanner.h"
 
@@ -46,25 +47,73 @@ class ColorWriter {
     std::array<std::string, 256> decimals_;
 };
 
-/// The text with the colour in place of whatever follows x y z on each 'v' line.
-Buffer recolored(const ObjDocument& document, const FileBytes& text, const std::vector<Color>& colors) {
+/// Copies a text piece by piece, with the replacements that it meets.
+class TextCopy {
+  public:
+    TextCopy(std::string_view text, const std::vector<Replacement>& replacements)
+        : text_(text), next_(replacements.begin()), last_(replacements.end()) {
+        to_.reserve(text.size());
+    }
+    Buffer& to() { return to_; }
+
+    /// Copies up to `end`, which no replacement crosses.
+    void copy_until(std::size_t end) {
+        for (; next_ != last_ && next_->begin < end; ++next_) {
+            append(to_, text_.substr(from_, next_->begin - from_));
+            append(to_, next_->text);
+            from_ = next_->end;
+        }
+        append(to_, text_.substr(from_, end - from_));
+        from_ = end;
+    }
+    void skip_until(std::size_t end) { from_ = end; }
+
+  private:
+    std::string_view text_;
+    std::vector<Replacement>::const_iterator next_, last_;
+    std::size_t from_ = 0;
+    Buffer to_;
+};
+
+/// Puts the colours in place of whatever follows x y z on each 'v' line.
+void recolor(TextCopy& copy, const ObjDocument& document, const FileBytes& text, const std::vector<Color>& colors) {
     const ColorWriter writer;
-    Buffer to;
-    to.reserve(text.size() + 24 * colors.size());
-    const char* from = text.begin();
+    const auto offset = [&](const char* place) { return static_cast<std::size_t>(place - text.begin()); };
+    TextScanner line(text, text.begin(), obj_syntax);
     for (std::size_t v = 0; v < colors.size(); ++v) {
-        TextScanner line(text, text.begin() + document.vertex_lines[v] + 1, obj_syntax);
+        line.move_to(text.begin() + document.vertex_lines[v] + 1);
         for (int c = 0; c < 3; ++c)
             line.word("a coordinate");
-        append(to, {from, static_cast<std::size_t>(line.at() - from)});
-        writer.append_to(to, colors[v]);
+        copy.copy_until(offset(line.at()));
+        writer.append_to(copy.to(), colors[v]);
         const char* rest = line.at();
         for (; !line.at_line_end(); rest = line.at())
             line.word("a number");
-        from = rest;
+        copy.skip_until(offset(rest));
     }
-    append(to, {from, static_cast<std::size_t>(text.end() - from)});
-    return to;
+}
+
+/// Writes the text of the input. \return what was changed besides colours, and what the colours replace.
+std::vector<std::string> write_text(AtomicFile& output, const ObjDocument& document, const Mesh& mesh,
+                                    const std::filesystem::path& file) {
+    if (mesh.added_colors.empty() && document.file_lines.empty()) {
+        output.write(document.text);
+        return {};
+    }
+    const FileBytes text(file, document.text);
+    MovedNames names = moved_names(document, text, file.parent_path());
+    TextCopy copy(document.text, names.replacements);
+    if (!mesh.added_colors.empty())
+        recolor(copy, document, text, mesh.added_colors);
+    copy.copy_until(document.text.size());
+    output.write({copy.to().data(), copy.to().size()});
+    if (!mesh.added_colors.empty() && document.weights > 0)
+        names.warnings.push_back("not stored in OBJ: the weights of " +
+                                 counted(document.weights, "vertex", "vertices") + ", which the colours replace");
+    if (!mesh.added_colors.empty() && document.mrgb_lines > 0)
+        names.warnings.push_back(counted(document.mrgb_lines, "'#MRGB' line still holds", "'#MRGB' lines still hold") +
+                                 " the colours of the input; programs that read them show those, not the new ones");
+    return std::move(names.warnings);
 }
 
 Buffer composed(const Mesh& mesh) {
@@ -153,15 +202,8 @@ std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path
     AtomicFile output(file);
     const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get());
     if (text != nullptr && text->vertex_lines.size() == mesh.vertex_count()) {
-        if (mesh.added_colors.empty()) {
-            output.write(text->text);
-        } else {
-            const Buffer bytes = recolored(*text, FileBytes(file, text->text), mesh.added_colors);
-            output.write({bytes.data(), bytes.size()});
-            if (text->weights > 0)
-                lost.push_back("not stored in OBJ: the weights of " + counted(text->weights, "vertex", "vertices") +
-                               ", which the colours replace");
-        }
+        for (std::string& message : write_text(output, *text, mesh, file))
+            lost.push_back(std::move(message));
     } else {
         if (const auto* document = dynamic_cast<const PlyDocument*>(mesh.source.get()))
             list_lost(*document, lost);
