@@ -118,3 +118,85 @@ TEST_F(Off, NonFiniteTokensAndBytesBehindTheEndAreCounted) {
     EXPECT_NE(mesh.warnings[0].find("6 bytes after"), std::string::npos) << mesh.warnings[0];
     EXPECT_NE(mesh.warnings[1].find("3 vertices have coordinates that are not finite"), std::string::npos);
 }
+
+TEST_F(Off, KeywordsMayBeInLowerCaseAndTouchTheCounts) {
+    for (const std::string header : {"OFF3 1 0\n", "off\n3 1 0\n", "Off 3 1 0\n", "off3 1 0\n", "\n# c\n\nOFF3 1\n"}) {
+        SCOPED_TRACE(header);
+        const Mesh mesh = read("in.off", header + "0 0 0\n1 0 0\n0 1 .5\n3 0 1 2\n");
+        expect_triangle(mesh);
+        EXPECT_TRUE(mesh.warnings.empty());
+    }
+    expect_triangle(read("in.off", "noff\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 .5 0 0 1\n3 0 1 2\n"));
+    EXPECT_EQ(read("in.off", "coff3 1 0\n0 0 0 9 9 9\n1 0 0 9 9 9\n0 1 .5 9 9 9\n3 0 1 2\n").vertex_colors[2],
+              (Color{9, 9, 9, 255}));
+}
+
+namespace {
+
+/// The values of a vertex after its coordinates.
+const std::string normal = " 0.6 -0.8 0", bytes4 = " 200 100 50 255", bytes3 = " 200 100 50", uv = " 0.25 1";
+const std::string fractions = " 0.75 0.5 0.25 1";
+
+std::string off_of(const std::string& keyword, const std::string& values) {
+    return keyword + "\n3 1 0\n0 0 0" + values + "\n1 0 0" + values + "\n0 1 .5" + values + "\n3 0 1 2\n";
+}
+
+struct Order {
+    std::string keyword, values;
+    Color color{200, 100, 50, 255};
+    bool warns = true;
+};
+
+}
+
+TEST_F(Off, TheNumbersDecideTheOrderOfTheValues) {
+    const Color in_fractions{191, 128, 64, 255};
+    for (const Order& order : std::vector<Order>{{"CNOFF", normal + bytes4, {200, 100, 50, 255}, false},
+                                                 {"CNOFF", bytes4 + normal},
+                                                 {"NCOFF", bytes4 + normal},
+                                                 {"NCOFF", normal + bytes4},
+                                                 {"NCOFF", bytes3 + normal},
+                                                 {"NCOFF", normal + bytes3},
+                                                 {"ncoff", fractions + normal, in_fractions},
+                                                 {"CNOFF", normal + fractions, in_fractions, false},
+                                                 {"STCNOFF", normal + bytes4 + uv, {200, 100, 50, 255}, false},
+                                                 {"NCSTOFF", bytes4 + normal + uv},
+                                                 {"STNCOFF", uv + normal + bytes4},
+                                                 {"STCOFF", bytes4 + uv, {200, 100, 50, 255}, false},
+                                                 {"STCOFF", uv + bytes4},
+                                                 {"CSTOFF", bytes4 + uv},
+                                                 {"CSTOFF", uv + bytes4},
+                                                 {"CSTOFF", uv + fractions, in_fractions},
+                                                 {"CSTOFF", fractions + uv, in_fractions}}) {
+        SCOPED_TRACE(order.keyword + order.values);
+        const Mesh mesh = read("in.off", off_of(order.keyword, order.values));
+        expect_triangle(mesh);
+        EXPECT_EQ(mesh.vertex_colors[1], order.color);
+        const bool has_normals = order.values.find(normal) != std::string::npos;
+        EXPECT_EQ(mesh.normals, std::vector<Vec3>(has_normals ? 3 : 0, Vec3(0.6f, -0.8f, 0)));
+        const bool has_uvs = order.keyword.find("ST") != std::string::npos;
+        EXPECT_EQ(mesh.vertex_uvs, std::vector<Vec2>(has_uvs ? 3 : 0, Vec2(0.25f, 1)));
+        ASSERT_EQ(mesh.warnings.size(), order.warns ? 1u : 0u);
+        if (order.warns) {
+            EXPECT_NE(mesh.warnings[0].find("the values of each vertex are read as x y z "), std::string::npos);
+        }
+    }
+}
+
+TEST_F(Off, TheOrderOfTheFormatStaysWhereTheNumbersDoNotDecide) {
+    // The normals of the format's order are not of unit length either, so that both orders fit equally.
+    const Mesh mesh = read("in.off", off_of("CNOFF", " 0 0 5 255 0 0"));
+    EXPECT_EQ(mesh.normals[0], Vec3(0, 0, 1));
+    EXPECT_EQ(mesh.vertex_colors[0], (Color{255, 0, 0, 255}));
+    EXPECT_TRUE(mesh.warnings.empty());
+    EXPECT_EQ(read("in.off", off_of("NSTOFF", normal + uv)).vertex_uvs[0], Vec2(0.25f, 1));
+}
+
+TEST_F(Off, AnyNumberOfUndeclaredValuesIsLeftOut) {
+    for (const std::string& values : {std::string(" 7"), std::string(" 1 2"), normal + bytes4, normal + bytes4 + uv}) {
+        const Mesh mesh = read("in.off", off_of("OFF", values));
+        expect_triangle(mesh);
+        ASSERT_EQ(mesh.warnings.size(), 1u);
+        EXPECT_NE(mesh.warnings[0].find("3 vertex lines have more values"), std::string::npos) << mesh.warnings[0];
+    }
+}

@@ -2,38 +2,21 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/byte_reader.h"
 #include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/off/off_layout.h"
 #include "alcove/mesh/formats/text_scanner.h"
 #include "alcove/mesh/normals.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace alcove {
 namespace {
 
-/// Limit for counting tokens on the rest of a line: more than any colour with a texture coordinate has.
-constexpr std::size_t most_tokens = 8;
+/// Limit for counting tokens on the rest of a line: more than any declared values of a vertex.
+constexpr std::size_t most_tokens = 16;
 
-/// What the header keyword declares for every vertex.
-struct Layout {
-    bool uvs = false, colors = false, normals = false, weights = false, dimension = false;
-};
-
-std::optional<Layout> layout_named(std::string_view keyword) {
-    Layout layout;
-    const auto take = [&](std::string_view prefix) {
-        const bool found = keyword.starts_with(prefix);
-        keyword.remove_prefix(found ? prefix.size() : 0);
-        return found;
-    };
-    layout.uvs = take("ST");
-    layout.colors = take("C");
-    layout.normals = take("N");
-    layout.weights = take("4");
-    layout.dimension = take("n");
-    return keyword == "OFF" ? std::optional(layout) : std::nullopt;
-}
+/// The order of groups is chosen from this many vertices.
+constexpr std::size_t sampled_vertices = 1000;
 
 /// Colours as in the file. Whether they range to 1 or to 255 is known only after all are read.
 class ColorList {
@@ -85,6 +68,7 @@ class OffReader {
             if (face_colors_.size() < faces_)
                 warn(faces_ - face_colors_.size(), "face has", "faces have", "no colour, unlike others; grey is used");
         }
+        warn_of_order();
         if (map_indices_ > 0)
             warn(map_indices_, "colour is", "colours are",
                  "an index into a colour map that is not in the file; left out");
@@ -103,9 +87,9 @@ class OffReader {
         if (text_.at_end())
             text_.fail_early("the number of vertices");
         const std::string_view keyword = text_.peek();
-        if (const auto layout = layout_named(keyword)) {
+        if (const auto layout = off_layout(keyword)) {
             layout_ = *layout;
-            text_.word("OFF");
+            text_.move_to(keyword.data() + layout->keyword.size());
             if (!text_.at_line_end() && text_.peek() == "BINARY") {
                 text_.word("BINARY");
                 binary_ = true;
@@ -141,14 +125,36 @@ class OffReader {
         // The shortest vertex is "0 0 0\n", the shortest face "0\n"; the last line end may be missing.
         check_counts(vertices, faces, 6, 2, text_.bytes_left(),
                      [&](const std::string& message) { file_.fail_at_line(counts, message); });
+        if (layout_.groups.size() > 1)
+            choose_order();
         for (std::size_t v = 0; v < vertices_; ++v)
             read_text_vertex(v);
         if (faces_ == 0)
             fail_without_faces(file_, counts, vertices_);
         for (std::size_t f = 0; f < faces_; ++f)
             read_text_face(f);
+        warn_of_rest();
+    }
+
+    void warn_of_rest() {
         if (!text_.at_end())
-            mesh_.warnings.push_back(grouped(text_.bytes_left()) + " bytes after the last face were not read");
+            mesh_.warnings.push_back(grouped(text_.bytes_left()) + " bytes after the last face were not read, from " +
+                                     in_quotes(text_.peek()) + " in line " + grouped(file_.line_at(text_.at())));
+        else if (text_.padding() > 0)
+            mesh_.warnings.push_back(counted(text_.padding(), "byte", "bytes") +
+                                     " (NUL or Ctrl-Z) after the last face left out");
+    }
+
+    void warn_of_order() {
+        const bool is_sorted = std::is_sorted(layout_.groups.begin(), layout_.groups.end());
+        if (layout_.is_standard && is_sorted)
+            return;
+        const std::string keyword = in_quotes(layout_.keyword);
+        mesh_.warnings.push_back(
+            "the values of each vertex are read as " + layout_.columns(color_components_) +
+            (layout_.is_standard
+                 ? ", which fits the numbers; " + keyword + " declares another order"
+                 : "; the keyword " + keyword + " does not have the order of the format, " + "[ST][C][N][4][n]OFF"));
     }
 
     /// Whether the line after the two other counts has an edge count.
@@ -157,50 +163,77 @@ class OffReader {
         return !ahead.at_end() && ahead.tokens_on_line(2) == 1;
     }
 
+    /// Programs disagree on the order of normals, colours and texture coordinates.
+    void choose_order() {
+        TextScanner ahead(text_);
+        if (ahead.at_end())
+            return;
+        const std::size_t width = ahead.tokens_on_line(most_tokens), without_color = layout_.width(0);
+        color_components_ = width - std::min(width, without_color);
+        const bool has_color = layout_.has(OffGroup::color);
+        if (has_color ? color_components_ != 3 && color_components_ != 4 : width != without_color)
+            return;
+        std::vector<double> rows;
+        for (std::size_t v = 0; v < std::min(vertices_, sampled_vertices) && !ahead.at_end(); ++v) {
+            if (ahead.tokens_on_line(most_tokens) != width)
+                break;
+            while (!ahead.at_line_end())
+                rows.push_back(ahead.number_or_nan());
+        }
+        alcove::choose_order(layout_, rows, color_components_);
+    }
+
     void read_text_vertex(std::size_t v) {
+        const std::size_t tokens = v > 0 || text_.at_end() ? 0 : text_.tokens_on_line(most_tokens);
         Vec3d p;
         for (int c = 0; c < 3; ++c)
             p[c] = text_.number("a coordinate");
         if (layout_.weights)
             p /= text_.number("the fourth coordinate");
         mesh_.positions.push_back(p);
-        if (layout_.normals) {
-            Vec3d n;
-            for (int c = 0; c < 3; ++c)
-                n[c] = text_.number("a normal");
-            mesh_.normals.push_back(unit_or_zero(n));
-        }
-        if (layout_.colors) {
-            const std::size_t left = text_.tokens_on_line(most_tokens);
-            const std::size_t behind = layout_.uvs ? 2 : 0;
-            if (left < behind + 1)
-                text_.fail("the vertex has no colour; one of 3 or 4 numbers is expected on its line");
-            read_text_color(left - behind, v, vertex_colors_);
-        }
-        if (layout_.uvs) {
-            const float s = text_.number<float>("a texture coordinate");
-            const float t = text_.number<float>("a texture coordinate");
-            mesh_.vertex_uvs.push_back({s, t});
-        }
+        std::size_t behind = layout_.width(0) - (layout_.weights ? 4 : 3); // values after the colour
+        for (const OffGroup group : layout_.groups)
+            if (group == OffGroup::color) {
+                read_text_vertex_color(v, behind);
+            } else {
+                read_text_group(group);
+                behind -= group == OffGroup::normal ? 3 : 2;
+            }
         if (text_.at_line_end())
             return;
-        // Vertices may share a line; but if the line of each has 3 or 4 more values, these are undeclared colours
-        // or normals.
-        const std::size_t left = text_.tokens_on_line(most_tokens);
-        if ((left == 3 || left == 4) && (v == 0 ? every_vertex_line_has(left) : undeclared_ == v)) {
+        // Vertices may share a line; but if the lines of all have equally many values, the rest is not declared.
+        if (v == 0 ? every_vertex_line_has(tokens) : undeclared_ == v) {
             ++undeclared_;
             text_.next_line();
         }
     }
 
-    /// Whether the line of each vertex has `more` values than declared. Called after the declared values of the
-    /// first line.
-    bool every_vertex_line_has(std::size_t more) const {
-        const std::size_t declared = 3u + layout_.weights + 3u * layout_.normals;
+    void read_text_group(OffGroup group) {
+        if (group == OffGroup::normal) {
+            Vec3d n;
+            for (int c = 0; c < 3; ++c)
+                n[c] = text_.number("a normal");
+            mesh_.normals.push_back(unit_or_zero(n));
+        } else {
+            const float s = text_.number<float>("a texture coordinate");
+            const float t = text_.number<float>("a texture coordinate");
+            mesh_.vertex_uvs.push_back({s, t});
+        }
+    }
+
+    void read_text_vertex_color(std::size_t v, std::size_t behind) {
+        const std::size_t left = text_.tokens_on_line(most_tokens);
+        if (left < behind + 1)
+            text_.fail("the vertex has no colour; one of 3 or 4 numbers is expected on its line");
+        read_text_color(left - behind, v, vertex_colors_);
+    }
+
+    /// Whether the line of each vertex has that many values. Called after the declared values of the first line.
+    bool every_vertex_line_has(std::size_t tokens) const {
         TextScanner ahead(text_);
         for (std::size_t v = 1; v < vertices_; ++v) {
             ahead.next_line();
-            if (ahead.at_end() || ahead.tokens_on_line(declared + most_tokens) != declared + more)
+            if (ahead.at_end() || ahead.tokens_on_line(most_tokens) != tokens)
                 return false;
         }
         return true;
@@ -249,8 +282,7 @@ class OffReader {
         const auto vertices = bytes.read<std::int32_t>("the number of vertices");
         const auto faces = bytes.read<std::int32_t>("the number of faces");
         bytes.read<std::int32_t>("the number of edges");
-        const std::size_t vertex_bytes =
-            sizeof(float) * (3u + layout_.weights + 3u * layout_.normals + 4u * layout_.colors + 2u * layout_.uvs);
+        const std::size_t vertex_bytes = sizeof(float) * layout_.width(4);
         check_counts(vertices, faces, vertex_bytes, 8, bytes.bytes_left(),
                      [&](const std::string& message) { bytes.fail(message); });
         for (std::size_t v = 0; v < vertices_; ++v)
@@ -268,19 +300,19 @@ class OffReader {
         if (layout_.weights)
             p /= bytes.read<float>("the fourth coordinate");
         mesh_.positions.push_back(p);
-        if (layout_.normals) {
-            Vec3d n;
-            for (int c = 0; c < 3; ++c)
-                n[c] = bytes.read<float>("a normal");
-            mesh_.normals.push_back(unit_or_zero(n));
-        }
-        if (layout_.colors)
-            read_binary_color(bytes, 4, v, vertex_colors_);
-        if (layout_.uvs) {
-            const float s = bytes.read<float>("a texture coordinate");
-            const float t = bytes.read<float>("a texture coordinate");
-            mesh_.vertex_uvs.push_back({s, t});
-        }
+        for (const OffGroup group : layout_.groups)
+            if (group == OffGroup::color) {
+                read_binary_color(bytes, 4, v, vertex_colors_);
+            } else if (group == OffGroup::normal) {
+                Vec3d n;
+                for (int c = 0; c < 3; ++c)
+                    n[c] = bytes.read<float>("a normal");
+                mesh_.normals.push_back(unit_or_zero(n));
+            } else {
+                const float s = bytes.read<float>("a texture coordinate");
+                const float t = bytes.read<float>("a texture coordinate");
+                mesh_.vertex_uvs.push_back({s, t});
+            }
     }
 
     void read_binary_face(ByteReader& bytes, std::size_t f) {
@@ -316,7 +348,8 @@ class OffReader {
     const FileBytes& file_;
     TextScanner text_;
     Mesh mesh_;
-    Layout layout_;
+    OffLayout layout_;
+    std::size_t color_components_ = 4; ///< of vertices, if their order was chosen
     bool binary_ = false;
     std::size_t vertices_ = 0, faces_ = 0, map_indices_ = 0, undeclared_ = 0;
     ColorList vertex_colors_, face_colors_;
@@ -326,7 +359,7 @@ class OffReader {
 
 bool begins_as_off(const FileBytes& file) {
     TextScanner text(file, file.begin(), off_syntax);
-    return !text.at_end() && layout_named(text.peek());
+    return !text.at_end() && off_layout(text.peek());
 }
 
 Mesh read_off(const FileBytes& file) {
