@@ -82,6 +82,67 @@ std::vector<Vec2d> random_star(std::mt19937& random, std::size_t corners) {
     return outline;
 }
 
+/// A comb with teeth of unit width, on a bar of height 1.
+std::vector<Vec2d> comb_of(std::size_t teeth, double height) {
+    std::vector<Vec2d> comb;
+    for (std::size_t i = 0; i < teeth; ++i) {
+        comb.emplace_back(i, 0.0);
+        comb.emplace_back(static_cast<double>(i) + 0.5, height);
+    }
+    const auto width = static_cast<double>(teeth);
+    comb.insert(comb.end(), {{width, 0.0}, {width, -1.0}, {0.0, -1.0}});
+    return comb;
+}
+
+/// A strip that winds around the origin, with `steps` edges on each side.
+std::vector<Vec2d> spiral_of(std::size_t steps, double angle_per_step) {
+    std::vector<Vec2d> spiral;
+    for (const bool inner : {false, true})
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double angle = angle_per_step * static_cast<double>(inner ? steps - i : i);
+            const double radius = 1.0 + 0.2 * angle - (inner ? 0.3 : 0.0);
+            spiral.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+        }
+    return spiral;
+}
+
+/// A side of Koch's snowflake, to the right of the way from `a` to `b`, without its end.
+void add_koch(std::vector<Vec2d>& outline, const Vec2d& a, const Vec2d& b, int depth) {
+    if (depth == 0) {
+        outline.push_back(a);
+        return;
+    }
+    const Vec2d third = (b - a) / 3.0;
+    const Vec2d tip = a + 1.5 * third + std::sqrt(0.75) * Vec2d(third.y, -third.x);
+    add_koch(outline, a, a + third, depth - 1);
+    add_koch(outline, a + third, tip, depth - 1);
+    add_koch(outline, tip, b - third, depth - 1);
+    add_koch(outline, b - third, b, depth - 1);
+}
+
+/// A unit square with rows of square holes that take a quarter of its area. A bridge leads through the holes of each row
+/// from the left side; the outline follows it there and back.
+std::vector<Vec2d> sieve_of(int rows) {
+    std::vector<Vec2d> outline{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const double cell = 1.0 / rows, half = 0.25 * cell;
+    for (int row = rows - 1; row >= 0; --row) {
+        const double y = (row + 0.5) * cell;
+        outline.emplace_back(0.0, y);
+        for (int column = 0; column < rows; ++column) {
+            const double left = (column + 0.5) * cell - half, right = (column + 0.5) * cell + half;
+            outline.insert(outline.end(), {{left, y}, {left, y + half}, {right, y + half}, {right, y}});
+        }
+        for (int column = rows - 1; column >= 0; --column) {
+            const double left = (column + 0.5) * cell - half, right = (column + 0.5) * cell + half;
+            if (column + 1 < rows)
+                outline.emplace_back(right, y);
+            outline.insert(outline.end(), {{right, y - half}, {left, y - half}, {left, y}});
+        }
+        outline.emplace_back(0.0, y);
+    }
+    return outline;
+}
+
 TEST(Triangulate, CoversRandomConcavePolygonsWithoutOverlap) {
     const unsigned seed = std::random_device{}();
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -104,24 +165,40 @@ TEST(Triangulate, ScaleAndPlaceDoNotMatter) {
 }
 
 TEST(Triangulate, CoversCombsAndSpirals) {
-    std::vector<Vec2d> comb;
-    for (int i = 0; i < 100; ++i) {
-        comb.emplace_back(i, 0.0);
-        comb.emplace_back(i + 0.5, 30.0);
-    }
-    comb.emplace_back(100.0, 0.0);
-    comb.emplace_back(100.0, -1.0);
-    comb.emplace_back(0.0, -1.0);
-    std::vector<Vec2d> spiral;
-    for (const bool inner : {false, true})
-        for (int i = 0; i <= 500; ++i) {
-            const double angle = 0.05 * (inner ? 500 - i : i);
-            const double radius = 1.0 + 0.2 * angle - (inner ? 0.3 : 0.0);
-            spiral.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-        }
     std::mt19937 random(3);
-    expect_cover(comb, random_plane(random, 1.0, 0.0), 1e-9);
-    expect_cover(spiral, random_plane(random, 1.0, 0.0), 1e-9);
+    expect_cover(comb_of(100, 30.0), random_plane(random, 1.0, 0.0), 1e-9);
+    expect_cover(spiral_of(500, 0.05), random_plane(random, 1.0, 0.0), 1e-9);
+}
+
+TEST(Triangulate, CoversPolygonsOfAnyNumberOfCorners) {
+    std::mt19937 random(13);
+    const Plane plane = random_plane(random, 1.0, 0.0);
+    for (const std::size_t corners : {2047u, 2048u, 2049u, 2050u, 100000u})
+        expect_cover(random_star(random, corners), plane, 1e-12);
+    expect_cover(comb_of(50000, 30.0), plane, 1e-7);
+    expect_cover(comb_of(50000, 50000.0), plane, 1e-5);
+    expect_cover(spiral_of(50000, 0.001), plane, 1e-9);
+    expect_cover(spiral_of(50000, 0.05), plane, 1e-6);
+    std::vector<Vec2d> snowflake;
+    const Vec2d a(0, 0), b(1, 0), c(0.5, std::sqrt(0.75));
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        add_koch(snowflake, from, to, 7);
+    ASSERT_EQ(snowflake.size(), 3u << 14);
+    const double triangle = std::sqrt(3.0) / 4.0; // the closed form of the area after n steps
+    ASSERT_NEAR(shoelace(snowflake), triangle * (1.0 + 0.6 * (1.0 - std::pow(4.0 / 9.0, 7))), 1e-12);
+    expect_cover(snowflake, plane, 1e-12);
+}
+
+TEST(Triangulate, CoversALargeCircleWithADent) {
+    // The turns are 1e-5 and the edges 1e-5 long, so that the triangles at the corners have areas of 1e-15.
+    std::vector<Vec2d> outline{{0, 0}};
+    constexpr int corners = 600000;
+    for (int i = 0; i <= corners; ++i) {
+        const double angle = 0.25 + 5.5 * i / corners;
+        outline.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    std::mt19937 random(17);
+    expect_cover(outline, random_plane(random, 1.0, 0.0), 1e-14);
 }
 
 TEST(Triangulate, CoversStaircasesAndOutlinesWithCollinearCorners) {
@@ -146,6 +223,16 @@ TEST(Triangulate, CoversAPlateWhoseHoleIsReachedByABridge) {
     // The bridge runs twice between (0,0) and (1,1), with duplicate corners, as exporters write it.
     const std::vector<Vec2d> outline{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}};
     expect_cover(outline, Plane{Vec3d(0.0), {1, 0, 0}, {0, 1, 0}}, 1e-12);
+}
+
+TEST(Triangulate, CoversPlatesWithRowsOfHoles) {
+    std::mt19937 random(19);
+    for (const int rows : {1, 2, 3, 4, 5, 6, 7, 8, 20, 100}) {
+        const std::vector<Vec2d> outline = sieve_of(rows);
+        ASSERT_NEAR(shoelace(outline), 0.75, 1e-12);
+        expect_cover(outline, Plane{Vec3d(0.0), {1, 0, 0}, {0, 1, 0}}, 1e-12);
+        expect_cover(outline, random_plane(random, 1.0, 0.0), 1e-12);
+    }
 }
 
 TEST(Triangulate, ConvexPolygonsAreFansFromTheirFirstCorner) {

@@ -2,6 +2,7 @@
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/parallel.h"
+#include "alcove/mesh/detail/ear_clipping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,18 +10,8 @@
 namespace alcove {
 namespace {
 
-using Vec2d = glm::dvec2;
-
-/// A turn below this share of the squared extent counts as straight: it may be rounding error.
+/// A normal shorter than this share of the squared extent may be rounding error.
 constexpr double flat = 1e-14;
-
-double turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-    return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
-}
-
-bool in_closed_triangle(const Vec2d& p, const Vec2d& a, const Vec2d& b, const Vec2d& c) {
-    return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
-}
 
 Vec3d normal_of(std::span<const Vec3d> polygon) {
     Vec3d normal(0.0);
@@ -55,10 +46,13 @@ class PolygonCutter {
         load();
         const Vec3d normal = normal_of(local_);
         const double length = glm::length(normal);
-        if (!(length > flat) || is_fan(local_, normal / length) || face.size() > longest_clipped_polygon)
+        if (!(length > flat) || is_fan(local_, normal / length)) {
             cut_fan();
-        else
-            clip_ears(normal / length);
+        } else {
+            project(normal / length);
+            for (const auto& [a, b, c] : clipper_.clip(flat_))
+                emit(a, b, c);
+        }
     }
 
   private:
@@ -100,103 +94,12 @@ class PolygonCutter {
             flat_.emplace_back(glm::dot(p, u), glm::dot(p, v));
     }
 
-    double turn_at(std::size_t i) const { return turn(flat_[previous_[i]], flat_[i], flat_[next_[i]]); }
-
-    bool is_ear(std::size_t i) const {
-        if (turn_at(i) <= flat)
-            return false;
-        const Vec2d &a = flat_[previous_[i]], &b = flat_[i], &c = flat_[next_[i]];
-        return std::none_of(reflex_.begin(), reflex_.end(), [&](std::size_t r) {
-            const Vec2d& p = flat_[r];
-            return r != previous_[i] && r != i && r != next_[i] && p != a && p != b && p != c &&
-                   in_closed_triangle(p, a, b, c);
-        });
-    }
-
-    void clip(std::size_t i) {
-        const std::size_t before = previous_[i], after = next_[i];
-        emit(before, i, after);
-        next_[before] = after;
-        previous_[after] = before;
-        // Only reflex corners can be inside an ear, and clipping never makes a corner reflex.
-        std::erase_if(reflex_,
-                      [&](std::size_t r) { return r == i || ((r == before || r == after) && turn_at(r) > flat); });
-        // In a simple polygon this does not affect other ears, unless a corner touches the edge of an ear.
-        set_ear(i, false);
-        set_ear(before, is_ear(before));
-        set_ear(after, is_ear(after));
-    }
-
-    void clip_ears(const Vec3d& normal) {
-        project(normal);
-        const std::size_t count = face_.size();
-        previous_.resize(count);
-        next_.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            previous_[i] = (i + count - 1) % count;
-            next_[i] = (i + 1) % count;
-        }
-        reflex_.clear();
-        for (std::size_t i = 0; i < count; ++i)
-            if (turn_at(i) <= flat)
-                reflex_.push_back(i);
-
-        ear_.assign(count, false);
-        ears_ = 0;
-        find_ears(0);
-        std::size_t at = 0, rounds = 0;
-        for (std::size_t left = count; left > 3; --left) {
-            std::size_t tip = ear_from(at);
-            if (!ear_[tip] && rounds++ < 32) {
-                find_ears(at);
-                tip = ear_from(at);
-            }
-            if (!ear_[tip])
-                tip = sharpest_from(at); // the outline crosses or touches itself
-            // Skip the next corner, so that the cuts are spread rather than fanned around one vertex.
-            at = next_[next_[tip]];
-            clip(tip);
-        }
-        emit(previous_[at], at, next_[at]);
-    }
-
-    void set_ear(std::size_t i, bool is) {
-        ears_ += std::size_t{is} - std::size_t{ear_[i] != 0};
-        ear_[i] = is;
-    }
-
-    void find_ears(std::size_t start) {
-        std::size_t i = start;
-        do {
-            set_ear(i, is_ear(i));
-            i = next_[i];
-        } while (i != start);
-    }
-
-    /// The next ear, or `start` if none is known.
-    std::size_t ear_from(std::size_t start) const {
-        std::size_t i = start;
-        while (ears_ > 0 && !ear_[i])
-            i = next_[i];
-        return i;
-    }
-
-    std::size_t sharpest_from(std::size_t start) const {
-        std::size_t best = start;
-        for (std::size_t i = next_[start]; i != start; i = next_[i])
-            if (turn_at(i) > turn_at(best))
-                best = i;
-        return best;
-    }
-
     const Mesh& mesh_;
     std::span<const std::uint32_t> face_;
     std::vector<Triangle>* out_ = nullptr;
     std::vector<Vec3d> local_;
-    std::vector<Vec2d> flat_;
-    std::vector<std::size_t> previous_, next_, reflex_;
-    std::vector<char> ear_;
-    std::size_t ears_ = 0; ///< ears that remain
+    std::vector<glm::dvec2> flat_;
+    EarClipper clipper_;
 };
 
 /// Triangulates the faces [begin, end). `faces`, if set, gets the face of each triangle.

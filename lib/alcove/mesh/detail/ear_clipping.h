@@ -1,0 +1,40 @@
+/// Cuts polygons in the plane into triangles by ear clipping (Meisters 1975).
+#pragma once
+
+#include "alcove/mesh/detail/corner_tree.h"
+#include "alcove/mesh/detail/number_set.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// Reuses its buffers. Cost: about n log n.
+class EarClipper {
+  public:
+    /// The triangles of an outline that turns left as a whole and has an extent of about 1, as numbers of corners:
+    /// two fewer than corners. Where the outline crosses itself, some of them overlap. Valid until the next call.
+    std::span<const std::array<std::uint32_t, 3>> clip(std::span<const glm::dvec2> outline);
+
+  private:
+    double turn_at(std::size_t i) const;
+    bool is_convex(std::size_t i) const;
+    bool is_ear(std::size_t i) const;
+    void link();
+    void clip_ear(std::size_t i);
+    void update_ear(std::size_t i);
+    void find_ears(std::size_t start);
+    std::size_t sharpest_from(std::size_t start) const;
+
+    std::span<const glm::dvec2> outline_;
+    std::vector<std::uint32_t> previous_, next_;
+    std::vector<char> is_reflex_;
+    CornerTree reflex_; ///< corners that are not convex: only these can be inside an ear
+    NumberSet ears_;
+    bool may_touch_ = false; ///< corners may touch the sides of an ear; needed where the outline touches itself
+    std::vector<std::array<std::uint32_t, 3>> triangles_;
+};
+
+}
