@@ -184,9 +184,10 @@ class BakeJob {
                         {"warnings", warnings_}},
                        verb_.inputs.size() > 1);
         else if (!verb_.common.quiet)
-            fmt::print("{}: {} of {} vertices by {}, radius {:.4g}, {}{}{}\n", file_.output, names_of(baked.attributes),
-                       grouped(mesh_.vertex_count()), baked.method, baked.radius, grid.text(), rmse_text(baked),
-                       baked.reason.empty() ? "" : fmt::format(" (without the field: {})", baked.reason));
+            say(fmt::format("{}: {} of {} vertices by {}, radius {:.4g}, {}{}{}", file_.output,
+                            names_of(baked.attributes), grouped(mesh_.vertex_count()), baked.method, baked.radius,
+                            grid.text(), rmse_text(baked),
+                            baked.reason.empty() ? "" : fmt::format(" (without the field: {})", baked.reason)));
     }
 
     const BakeVerb& verb_;

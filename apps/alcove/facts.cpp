@@ -22,7 +22,7 @@ void Facts::add(const std::string& key, nlohmann::ordered_json value, const std:
     std::string label = key;
     std::replace(label.begin(), label.end(), '_', ' ');
     for (const std::string& line : lines) {
-        text_ += fmt::format("  {:<{}}{}\n", label, label_width, line);
+        text_ += fmt::format("  {:<{}}{}\n", label, label_width, in_one_line(line));
         label.clear();
     }
 }
@@ -50,7 +50,7 @@ nlohmann::ordered_json Facts::json(const std::string& file) const {
 }
 
 std::string Facts::text(const std::string& file) const {
-    return fmt::format("{}: {}\n{}", file, json_.at("kind").get<std::string>(), text_);
+    return fmt::format("{}: {}\n{}", in_one_line(file), json_.at("kind").get<std::string>(), text_);
 }
 
 }

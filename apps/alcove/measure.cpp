@@ -243,8 +243,8 @@ void print(const std::vector<Measurement>& measurements) {
         if (m.mesh != mesh)
             fmt::print("{}{}: {} vertices, compared at {}; radius and voxel are fractions of the diagonal\n"
                        "{:>22} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n",
-                       mesh.empty() ? "" : "\n", m.mesh, grouped(m.vertices), grouped(m.error.count), "method",
-                       "radius", "voxel", "rmse", "bias", "ao sd", "CPU s");
+                       mesh.empty() ? "" : "\n", in_one_line(m.mesh), grouped(m.vertices), grouped(m.error.count),
+                       "method", "radius", "voxel", "rmse", "bias", "ao sd", "CPU s");
         mesh = m.mesh;
         fmt::print("{:>22} {:>8.4g} {:>8} {:>8.4f} {:>+8.4f} {:>8.4f} {:>10.4g}\n", m.label(), m.radius,
                    m.voxel > 0.0 ? fmt::format("{:.4g}", m.voxel) : "-", m.error.rmse, m.error.bias, m.error.deviation,

@@ -3,6 +3,7 @@
 #include "ending.h"
 
 #include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/messages.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,22 @@ std::pair<std::string, double> parse_setting(const std::string& setting) {
             throw InputError(fmt::format("takes name=value with a number, true or false, not '{}'", setting));
     }
     return {setting.substr(0, equals), value};
+}
+
+/// Escapes DEL and U+0080 to U+009F in a JSON text, which has escapes for all other control characters.
+std::string with_escaped_controls(std::string_view json) {
+    std::string text;
+    text.reserve(json.size());
+    for (std::size_t at = 0; at < json.size(); ++at) {
+        const auto byte = [&](std::size_t i) { return i < json.size() ? static_cast<unsigned char>(json[i]) : 0u; };
+        if (byte(at) == 0x7f)
+            text += "\\u007f";
+        else if (byte(at) == 0xc2 && byte(at + 1) >= 0x80 && byte(at + 1) < 0xa0)
+            text += fmt::format("\\u{:04x}", byte(++at));
+        else
+            text += json[at];
+    }
+    return text;
 }
 
 }
@@ -179,16 +196,20 @@ void check_grid_output(const std::string& file) {
     const AtomicFile probe(file);
 }
 
+void say(std::string_view line) {
+    fmt::print("{}\n", in_one_line(line));
+}
+
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options) {
     if (options.quiet)
         return;
     for (const std::string& warning : warnings)
-        std::fputs(fmt::format("alcove: warning: {}\n", warning).c_str(), stderr);
+        std::fputs(fmt::format("alcove: warning: {}\n", in_one_line(warning)).c_str(), stderr);
 }
 
 void print_json(const nlohmann::ordered_json& object, bool in_one_line) {
     constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    fmt::print("{}\n", object.dump(in_one_line ? -1 : 2, ' ', false, replace));
+    fmt::print("{}\n", with_escaped_controls(object.dump(in_one_line ? -1 : 2, ' ', false, replace)));
 }
 
 std::string_view name_of(Sign sign) {

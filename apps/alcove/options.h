@@ -117,10 +117,13 @@ std::string extension(const std::string& file);
 /// \throw UsageError unless the name ends in .vdb, IoError if the file cannot be written.
 void check_grid_output(const std::string& file);
 
+/// Prints a line to stdout. Like messages on stderr, it does not show control characters of names.
+void say(std::string_view line);
+
 /// Prints one line per warning to stderr, unless quiet.
 void print_warnings(const std::vector<std::string>& warnings, const CommonOptions& options);
 
-/// Prints the object to stdout, indented or in one line.
+/// Prints the object to stdout, indented or in one line. Escapes control characters.
 void print_json(const nlohmann::ordered_json& object, bool in_one_line = false);
 
 /// "solid" or "sheet".

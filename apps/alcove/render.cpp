@@ -107,8 +107,8 @@ class RenderJob {
             if (options_.common.json)
                 print_json({{"output", options_.image.file}, {"frames", *options_.frames}, {"skipped", skipped()}});
             else if (!options_.common.quiet)
-                fmt::print("{}: all {} frames exist; delete the ones to render again\n", options_.image.file,
-                           skipped());
+                say(fmt::format("{}: all {} frames exist; delete the ones to render again", options_.image.file,
+                                skipped()));
             return;
         }
         Stopwatch watch;
@@ -191,9 +191,9 @@ class RenderJob {
         if (options_.frames)
             drawn = fmt::format("wrote {} of {} frames, {}{}", frames_.size(), *options_.frames, drawn,
                                 frames_.size() > 1 ? " to " + frames_.back().file : "");
-        fmt::print("{}: {}x{} pixels, occlusion by {}, radius {:.4g}{}\n", drawn, scene_.size.width, scene_.size.height,
-                   name_of_method(scene_, built), radius_of(built),
-                   built.voxel > 0.0 ? fmt::format(", voxel {:.4g}", built.voxel) : "");
+        say(fmt::format("{}: {}x{} pixels, occlusion by {}, radius {:.4g}{}", drawn, scene_.size.width,
+                        scene_.size.height, name_of_method(scene_, built), radius_of(built),
+                        built.voxel > 0.0 ? fmt::format(", voxel {:.4g}", built.voxel) : ""));
     }
 
     void print_object(const BuiltScene& built, const Camera& start, const std::vector<std::string>& warnings) const {

@@ -98,8 +98,9 @@ void run(const VoxelizeVerb& verb) {
                     {"warnings", warnings}});
     else if (!verb.common.quiet)
         for (std::size_t i = 0; i < levels.size(); ++i)
-            fmt::print("{}: level {}: voxel {:.4g}, {} active voxels, {}\n", verb.output, i + 1,
-                       levels[i]["voxel"].get<double>(), grouped(levels[i]["active_voxels"]), name_of(stack.sign));
+            say(fmt::format("{}: level {}: voxel {:.4g}, {} active voxels, {}", verb.output, i + 1,
+                            levels[i]["voxel"].get<double>(), grouped(levels[i]["active_voxels"]),
+                            name_of(stack.sign)));
 }
 
 }

@@ -75,6 +75,32 @@ TEST_F(Inputs, ALineBreakInANameStaysOneLine) {
     expect_refusal({"info", "two\nlines.ply"}, bad_input, {"two?lines.ply"});
 }
 
+TEST_F(Inputs, ControlCharactersOfNamesDoNotReachTheTerminal) {
+    const std::string file = "a\x1b]0;pwn\x07\xc2\x9b.ply";
+    write(file, "ply\nformat ascii 1.0\ncomment \x1b[2J\nelement vertex 3\nproperty float x\nproperty float y\n"
+                "property float z\nproperty float \x1b]0;pwn\x07\nproperty float \xc2\x9b"
+                "31m\x7f\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0 1 1\n1 0 0 1 1\n0 1 0 1 1\n3 0 1 2\nrest\x1b\n");
+    const auto is_plain = [](const std::string& text) {
+        return text.find_first_of("\x1b\x07\x7f") == std::string::npos && text.find("\xc2\x9b") == std::string::npos;
+    };
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", file},
+                                                      {"info", file, "--json"},
+                                                      {"bake", file, "-o", "\x1b.ply"},
+                                                      {"bake", file, "-o", "\x1b.obj"},
+                                                      {"bake", file, "-o", "\x1b.ply", "--json"},
+                                                      {"voxelize", file, "-o", "\x1b.vdb"},
+                                                      {"render", file, "-o", "\x1b.png", "--size", "8x8"},
+                                                      {"measure", file, "--methods", "exact:16"}}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, done) << outcome.err;
+        EXPECT_TRUE(is_plain(outcome.out)) << arguments[0] << ": " << outcome.out;
+        EXPECT_TRUE(is_plain(outcome.err)) << arguments[0] << ": " << outcome.err;
+    }
+    EXPECT_EQ(run({"info", file, "--json"}).json().at("elements").at(0).at("properties").at(3).at("name"),
+              "\x1b]0;pwn\x07");
+}
+
 TEST_F(Inputs, DamagedImagesAndGridsAreRefused) {
     write("image.exr", std::string("\x76\x2f\x31\x01", 4) + "rest");
     expect_refusal({"info", "image.exr"}, bad_input, {"image.exr", "not a readable EXR or PNG image"});

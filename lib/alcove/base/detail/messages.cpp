@@ -6,19 +6,50 @@
 #include <cmath>
 
 namespace alcove {
+namespace {
 
-std::string in_quotes(std::string_view text) {
-    constexpr std::size_t longest = 40;
-    std::string result = "'";
-    for (const char c : text.substr(0, longest))
-        result += c >= ' ' && c <= '~' ? c : '?';
-    return result + (text.size() > longest ? "...'" : "'");
+/// The number of bytes of the character at the start of `text`, in UTF-8; 0 if it is a control character or invalid.
+std::size_t printable_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    if (byte(0) < 0x80)
+        return byte(0) >= ' ' && byte(0) != 0x7f;
+    if (byte(0) < 0xc2 || byte(0) > 0xf4)
+        return 0;
+    const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+    unsigned code = byte(0) & (0x7fu >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0) != 0x80)
+            return 0;
+        code = code << 6 | (byte(i) & 0x3f);
+    }
+    constexpr unsigned smallest[] = {0, 0, 0xa0, 0x800, 0x10000}; // U+0080 to U+009F are control characters
+    const bool surrogate = code >= 0xd800 && code < 0xe000;
+    return code >= smallest[length] && code <= 0x10ffff && !surrogate ? length : 0;
 }
 
-std::string in_one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-    return text;
+/// Moves the first character of `from`, or '?' for its first byte.
+void move_character(std::string_view& from, std::string& to) {
+    const std::size_t length = printable_length(from);
+    to += length > 0 ? from.substr(0, length) : "?";
+    from.remove_prefix(std::max<std::size_t>(length, 1));
+}
+
+}
+
+std::string in_one_line(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    while (!text.empty())
+        move_character(text, result);
+    return result;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr int longest = 40;
+    std::string result = "'";
+    for (int characters = 0; !text.empty() && characters < longest; ++characters)
+        move_character(text, result);
+    return result + (text.empty() ? "'" : "...'");
 }
 
 std::string grouped(std::size_t count) {

@@ -7,11 +7,12 @@
 
 namespace alcove {
 
-/// The text in quotes: truncated to 40 characters, with '?' for unprintable ones.
-std::string in_quotes(std::string_view text);
+/// The text with '?' for each control character, and for each byte that is not UTF-8: names in a file must not control a
+/// terminal.
+std::string in_one_line(std::string_view text);
 
-/// The text with '?' for each control character.
-std::string in_one_line(std::string text);
+/// The same in quotes, truncated to 40 characters.
+std::string in_quotes(std::string_view text);
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t count);
