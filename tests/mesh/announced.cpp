@@ -96,6 +96,8 @@ Announced by_stl(const std::string& bytes) {
     std::uint32_t facets = 0;
     if (bytes.size() >= preamble)
         std::memcpy(&facets, bytes.data() + preamble - sizeof facets, sizeof facets);
+    if (facets == 0 || facets >= 0x7fffffff) // never filled in
+        facets = bytes.size() >= preamble ? static_cast<std::uint32_t>((bytes.size() - preamble) / facet) : 0;
     if (bytes.size() >= preamble && preamble + facet * std::size_t{facets} <= bytes.size())
         return {3 * std::uint64_t{facets}, facets};
     std::string text = bytes;

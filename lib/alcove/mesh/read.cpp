@@ -47,7 +47,8 @@ const Format& format_of(const FileBytes& file) {
 }
 
 std::string points_without_faces(std::size_t count) {
-    return "contains " + counted(count, "point", "points") + " but no faces; reconstruct a surface first";
+    return count == 0 ? "contains no vertices and no faces; export it again"
+                      : "contains " + counted(count, "point", "points") + " but no faces; reconstruct a surface first";
 }
 
 void warn_of_invalid_geometry(Mesh& mesh) {
@@ -74,7 +75,8 @@ Mesh read_bytes(const FileBytes& file) {
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
     if (mesh.face_count() == 0)
-        file.fail(points_without_faces(mesh.vertex_count()));
+        file.fail(mesh.format == stl.name ? "contains no facets; export it again"
+                                          : points_without_faces(mesh.vertex_count()));
     const double diagonal = mesh.box().diagonal();
     if (std::isinf(diagonal))
         file.fail("has vertices farther apart than numbers can represent; scale it down, or export it again");
@@ -100,6 +102,11 @@ void close_face(Mesh& mesh) {
     if (mesh.corners.size() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError("more than 2^32 face corners; split the mesh");
     mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
+}
+
+bool is_padding(std::string_view text) {
+    constexpr std::string_view padding("\0\x1a \t\r\n", 6);
+    return text.find_first_not_of(padding) == std::string_view::npos;
 }
 
 std::uint8_t color_byte(double value) {

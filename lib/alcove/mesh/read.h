@@ -23,7 +23,8 @@ namespace alcove {
 ///    Vertices of 4OFF are divided by w. Colours range to 255, or to 1 if one has a fraction or none is above 1.
 ///    Normals, colours and texture coordinates are read in the order that fits the numbers best.
 ///  - STL: ascii and binary. Corners with equal coordinates are joined (-0 equals 0), in the order of their first
-///    appearance. Facet normals are ignored, as the corners determine them.
+///    appearance. Facet normals are ignored, as the corners determine them. The 15-bit colours of VisCAM and Magics
+///    become `face_colors`. A binary count of 0 or -1 means as many facets as the file has room for.
 ///
 /// Thread-safe. Cost: linear, about 0.2 µs per triangle for text and 0.1 µs for binary PLY; the file and the mesh
 /// are in memory at the same time.

@@ -4,6 +4,7 @@
 #include "alcove/mesh/detail/weld.h"
 #include "alcove/mesh/formats/byte_reader.h"
 #include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/stl/stl_colors.h"
 #include "alcove/mesh/formats/text_scanner.h"
 
 #include <algorithm>
@@ -45,6 +46,10 @@ bool same_word(std::string_view a, std::string_view lower_case) {
            });
 }
 
+bool begins_with_word(std::string_view a, std::string_view lower_case) {
+    return same_word(a.substr(0, lower_case.size()), lower_case);
+}
+
 /// The number of triangles that the preamble of a binary file declares.
 std::size_t declared_facets(const FileBytes& file) {
     ByteReader bytes(file, file.begin() + header_size, std::endian::little);
@@ -55,80 +60,160 @@ bool has_binary_size(const FileBytes& file) {
     return file.size() >= preamble_size && file.size() == preamble_size + facet_size * declared_facets(file);
 }
 
-/// Many binary files begin with the keyword of the text format too, but only binary files contain zero bytes.
+/// Many binary files begin with the keyword of the text format too, but only they contain control characters. Those at
+/// the very end of a text are padding.
 bool is_text(const FileBytes& file) {
-    TextScanner text(file, file.begin());
-    return !has_binary_size(file) && !text.at_end() && same_word(text.peek(), "solid") &&
-           file.view().substr(0, 1024).find('\0') == std::string_view::npos;
+    constexpr std::string_view padding("\0\x1a \t\r\n", 6), spacing = "\t\n\v\f\r\x1a";
+    const std::string_view text = file.view().substr(0, file.view().find_last_not_of(padding) + 1).substr(0, 1024);
+    return !has_binary_size(file) && std::all_of(text.begin(), text.end(), [&](char c) {
+        return static_cast<unsigned char>(c) >= ' ' || spacing.find(c) != std::string_view::npos;
+    });
 }
 
+/// Accepts what exporters make of the keywords: `end solid part`, `endsolidpart`, a solid without its first or last
+/// line.
 class TextReader {
   public:
-    explicit TextReader(const FileBytes& file) : text_(file, file.begin()) {}
+    explicit TextReader(const FileBytes& file) : file_(file), text_(file, file.begin()) {}
 
     Mesh read() {
-        while (!text_.at_end()) {
-            expect("solid");
-            text_.next_line();
-            while (!next_is("endsolid"))
-                read_facet();
-            text_.next_line();
-        }
+        while (!text_.at_end())
+            read_item();
+        if (mesh_.face_count() == 0 && skipped_ > 0)
+            file_.fail("contains no facets, and a line begins with " + in_quotes(first_skipped_) +
+                       ": is it an STL file?");
+        if (in_solid_)
+            mesh_.warnings.emplace_back("the file ends without 'endsolid': check that it is complete");
+        if (skipped_ > 0)
+            mesh_.warnings.push_back(counted(skipped_, "line does", "lines do") +
+                                     " not begin with an STL keyword, the first with " + in_quotes(first_skipped_) +
+                                     "; left out");
         join_corners(mesh_);
         return std::move(mesh_);
     }
 
   private:
+    void read_item() {
+        const std::string_view word = text_.peek();
+        if (same_word(word, "facet"))
+            return read_facet();
+        if (begins_with_word(word, "solid"))
+            in_solid_ = true;
+        else if (begins_with_word(word, "endsolid") || take_end("solid"))
+            in_solid_ = false;
+        else if (!is_padding(word))
+            skip(word);
+        text_.next_line(); // the name
+    }
+
+    /// Notes a line that is not of a solid, such as the last one of a web page.
+    void skip(std::string_view word) {
+        for (const char* keyword : {"normal", "outer", "loop", "vertex", "endloop", "endfacet", "end"})
+            if (same_word(word, keyword))
+                fail_word("facet");
+        if (skipped_++ == 0)
+            first_skipped_ = word;
+    }
+
+    /// The normal is not used and may be missing or of words that are not numbers.
     void read_facet() {
         expect("facet");
-        expect("normal");
-        for (int c = 0; c < 3; ++c)
-            text_.number("a normal");
+        if (next_is("normal"))
+            text_.word("normal");
+        for (int c = 0; c < 3 && !next_is("outer"); ++c)
+            text_.word("outer");
         expect("outer");
         expect("loop");
-        while (!next_is("endloop")) {
+        while (!take_end("loop")) {
             expect("vertex");
             Vec3d p;
             for (int c = 0; c < 3; ++c)
                 p[c] = text_.number("a coordinate");
             mesh_.positions.push_back(p);
         }
-        expect("endloop");
-        expect("endfacet");
+        if (!take_end("facet"))
+            fail_word("endfacet");
         close_facet(mesh_);
     }
 
-    bool next_is(const char* word) {
+    bool next_is(std::string_view word) {
         if (text_.at_end())
-            text_.fail_early(word);
+            text_.fail_early(word.data());
         return same_word(text_.peek(), word);
+    }
+
+    /// Takes "end" and `what`, in one word or two. \return whether they are next.
+    bool take_end(std::string_view what) {
+        if (text_.at_end())
+            text_.fail_early(("end" + std::string(what)).c_str());
+        const std::string_view word = text_.peek();
+        if (!begins_with_word(word, "end"))
+            return false;
+        TextScanner after(text_);
+        after.word("end");
+        const bool two_words = word.size() == 3 && !after.at_line_end() && same_word(after.peek(), what);
+        if (!two_words && !same_word(word.substr(3), what))
+            return false;
+        if (two_words)
+            after.word("end");
+        text_.move_to(after.at());
+        return true;
+    }
+
+    [[noreturn]] void fail_word(const std::string& wanted) {
+        text_.fail(in_quotes(text_.peek()) + " found where '" + wanted + "' is expected; export the file again");
     }
 
     void expect(const char* word) {
         if (!next_is(word))
-            text_.fail(in_quotes(text_.peek()) + " found where '" + word + "' is expected; export the file again");
+            fail_word(word);
         text_.word(word);
     }
 
+    const FileBytes& file_;
     TextScanner text_;
     Mesh mesh_;
+    bool in_solid_ = false;
+    std::size_t skipped_ = 0;
+    std::string_view first_skipped_;
 };
+
+/// The number of facets to read: the declared one or, if it was never filled in, as many as the file has room for.
+std::size_t facets_of(const FileBytes& file, std::vector<std::string>& warnings) {
+    const std::size_t declared = declared_facets(file), bytes = file.size() - preamble_size;
+    const std::size_t room = bytes / facet_size;
+    const bool filled_in = declared > 0 && declared < 0x7fffffff;
+    if (filled_in && declared > room)
+        file.fail_at_byte(file.begin() + header_size, grouped(declared) + " facets of 50 bytes are declared but only " +
+                                                          grouped(bytes) + " bytes follow, which hold " +
+                                                          grouped(room) + "; copy or export the file again");
+    if (!filled_in && room > 0)
+        warnings.push_back("the header declares " + grouped(declared) + " facets, but the file has room for " +
+                           grouped(room) + ": all of these were read");
+    return filled_in ? declared : room;
+}
+
+std::string warning_of_rest(std::size_t bytes, std::size_t facets) {
+    std::string warning =
+        counted(bytes, "byte after the last facet was", "bytes after the last facet were") + " not read";
+    if (bytes % facet_size == 0)
+        warning += "; they look like " + counted(bytes / facet_size, "facet", "facets") + " beyond the " +
+                   grouped(facets) + " that the header declares";
+    return warning;
+}
 
 Mesh read_binary(const FileBytes& file) {
     if (file.size() < preamble_size)
         file.fail_at_byte(file.end(),
                           "the file ends early: a binary STL has at least 84 bytes; copy or export it again");
-    const std::size_t facets = declared_facets(file);
-    ByteReader bytes(file, file.begin() + preamble_size, std::endian::little);
-    if (facets > bytes.bytes_left() / facet_size)
-        file.fail_at_byte(file.begin() + header_size, grouped(facets) + " facets of 50 bytes are declared but only " +
-                                                          grouped(bytes.bytes_left()) +
-                                                          " bytes follow; copy or export the file again");
     Mesh mesh;
+    const std::size_t facets = facets_of(file, mesh.warnings);
+    ByteReader bytes(file, file.begin() + preamble_size, std::endian::little);
     mesh.positions.reserve(3 * facets);
     mesh.corners.reserve(3 * facets);
     mesh.face_begin.reserve(facets + 1);
-    std::size_t attributed = 0;
+    std::vector<std::uint16_t> attributes;
+    attributes.reserve(facets);
     for (std::size_t f = 0; f < facets; ++f) {
         for (int c = 0; c < 3; ++c)
             bytes.read<float>("a normal");
@@ -138,22 +223,22 @@ Mesh read_binary(const FileBytes& file) {
                 p[c] = bytes.read<float>("a coordinate");
             mesh.positions.push_back(p);
         }
-        attributed += bytes.read<std::uint16_t>("the attribute") != 0;
+        attributes.push_back(bytes.read<std::uint16_t>("the attribute"));
         close_facet(mesh);
     }
     join_corners(mesh);
-    if (attributed > 0)
-        mesh.warnings.push_back(counted(attributed, "facet has", "facets have") +
-                                " attribute bytes (often a colour); left out");
+    mesh.face_colors = stl_colors(file.view().substr(0, header_size), attributes, mesh.warnings);
     if (bytes.bytes_left() > 0)
-        mesh.warnings.push_back(grouped(bytes.bytes_left()) + " bytes after the last facet were not read");
+        mesh.warnings.push_back(warning_of_rest(bytes.bytes_left(), facets));
     return mesh;
 }
 
 }
 
 bool begins_as_stl(const FileBytes& file) {
-    return has_binary_size(file) || is_text(file);
+    TextScanner text(file, file.begin());
+    return has_binary_size(file) || (is_text(file) && !text.at_end() &&
+                                     (begins_with_word(text.peek(), "solid") || same_word(text.peek(), "facet")));
 }
 
 Mesh read_stl(const FileBytes& file) {
