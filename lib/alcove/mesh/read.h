@@ -14,7 +14,8 @@ namespace alcove {
 /// faces of fewer than three corners are kept. `Mesh::warnings` counts what the result lacks.
 ///  - PLY: ascii, and binary of both byte orders. `source` keeps everything. nx ny nz become `normals`; s t, u v,
 ///    texture_u texture_v or s0 t0 become `vertex_uvs`; a face list texcoord becomes `corner_uvs`; red green blue
-///    alpha become colours, where floats range to 1 and ushorts to 65535.
+///    alpha, diffuse_red ..., or r g b a become colours, which range to 255, or to 1 for floats of which none is above
+///    1, or to 65535 if one is above 255. Without faces, `tristrips` become triangles.
 ///  - OBJ: `source` keeps the text. Texture coordinates become `vertex_uvs` if the corners of each vertex agree,
 ///    otherwise `corner_uvs`. A vertex with several normals gets the normalized sum of the distinct ones. v x y z
 ///    r g b become colours, which range to 1, or to 255 if one is above 1; else the `#MRGB` comments of ZBrush do.

@@ -76,42 +76,6 @@ PlyElement vertex_element(const Mesh& mesh) {
     return element;
 }
 
-PlyElement face_element(const Mesh& mesh) {
-    std::size_t most_corners = 0;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        most_corners = std::max(most_corners, mesh.face(f).size());
-    const bool has_uvs = !mesh.corner_uvs.empty();
-    const bool has_colors = !mesh.face_colors.empty();
-    const PlyType count_type = most_corners <= 255 ? PlyType::uint8 : PlyType::int32;
-    const PlyType uv_count_type = 2 * most_corners <= 255 ? PlyType::uint8 : PlyType::int32;
-    const bool large = mesh.vertex_count() > 0x7fffffffu;
-
-    PlyElement element{"face", mesh.face_count(), {}};
-    element.properties.push_back({"vertex_indices", large ? PlyType::uint32 : PlyType::int32, count_type});
-    if (has_uvs)
-        element.properties.push_back({"texcoord", PlyType::float32, uv_count_type});
-    if (has_colors)
-        add_color_properties(element);
-
-    std::vector<std::byte> rows(element.count * element.smallest_row() + mesh.corners.size() * sizeof(std::uint32_t) +
-                                mesh.corner_uvs.size() * sizeof(Vec2));
-    std::byte* to = rows.data();
-    for (std::size_t f = 0; f < element.count; ++f) {
-        const auto face = mesh.face(f);
-        to = store_count(to, face.size(), count_type);
-        to = std::copy_n(std::as_bytes(face).data(), face.size_bytes(), to);
-        if (has_uvs) {
-            const auto uvs = std::as_bytes(std::span(mesh.corner_uvs).subspan(mesh.face_begin[f], face.size()));
-            to = store_count(to, 2 * face.size(), uv_count_type);
-            to = std::copy(uvs.begin(), uvs.end(), to);
-        }
-        if (has_colors)
-            to = store(to, mesh.face_colors[f]);
-    }
-    element.keep(std::move(rows));
-    return element;
-}
-
 }
 
 std::string_view name_of(PlyType type) {
@@ -164,6 +128,49 @@ bool PlyDocument::has_comment(std::string_view beginning) const {
 bool PlyDocument::has_vertex_property(std::string_view name) const {
     const PlyElement* vertices = find("vertex");
     return vertices != nullptr && vertices->find(name) != nullptr;
+}
+
+const PlyProperty* corner_list(const PlyElement& element) {
+    const PlyProperty* list = element.find("vertex_indices");
+    if (list == nullptr)
+        list = element.find("vertex_index");
+    return list != nullptr && list->count_type && is_integral(list->type) ? list : nullptr;
+}
+
+PlyElement face_element(const Mesh& mesh) {
+    std::size_t most_corners = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        most_corners = std::max(most_corners, mesh.face(f).size());
+    const bool has_uvs = !mesh.corner_uvs.empty();
+    const bool has_colors = !mesh.face_colors.empty();
+    const PlyType count_type = most_corners <= 255 ? PlyType::uint8 : PlyType::int32;
+    const PlyType uv_count_type = 2 * most_corners <= 255 ? PlyType::uint8 : PlyType::int32;
+    const bool large = mesh.vertex_count() > 0x7fffffffu;
+
+    PlyElement element{"face", mesh.face_count(), {}};
+    element.properties.push_back({"vertex_indices", large ? PlyType::uint32 : PlyType::int32, count_type});
+    if (has_uvs)
+        element.properties.push_back({"texcoord", PlyType::float32, uv_count_type});
+    if (has_colors)
+        add_color_properties(element);
+
+    std::vector<std::byte> rows(element.count * element.smallest_row() + mesh.corners.size() * sizeof(std::uint32_t) +
+                                mesh.corner_uvs.size() * sizeof(Vec2));
+    std::byte* to = rows.data();
+    for (std::size_t f = 0; f < element.count; ++f) {
+        const auto face = mesh.face(f);
+        to = store_count(to, face.size(), count_type);
+        to = std::copy_n(std::as_bytes(face).data(), face.size_bytes(), to);
+        if (has_uvs) {
+            const auto uvs = std::as_bytes(std::span(mesh.corner_uvs).subspan(mesh.face_begin[f], face.size()));
+            to = store_count(to, 2 * face.size(), uv_count_type);
+            to = std::copy(uvs.begin(), uvs.end(), to);
+        }
+        if (has_colors)
+            to = store(to, mesh.face_colors[f]);
+    }
+    element.keep(std::move(rows));
+    return element;
 }
 
 PlyDocument make_ply_document(const Mesh& mesh) {

@@ -105,8 +105,36 @@ class PlyDocument : public SourceDocument {
     bool has_comment(std::string_view beginning) const override;
 };
 
+/// Calls f(row, bytes of the property) for all rows.
+template <class F>
+void for_each_value(const PlyElement& element, const PlyProperty& wanted, F&& f) {
+    if (element.count == 0)
+        return; // the pointer may be null
+    const std::byte* at = element.rows.data();
+    if (!element.has_lists()) {
+        const std::size_t stride = element.smallest_row();
+        for (const PlyProperty* p = element.properties.data(); p != &wanted; ++p)
+            at += size_of(p->type);
+        for (std::size_t row = 0; row < element.count; ++row, at += stride)
+            f(row, at);
+        return;
+    }
+    for (std::size_t row = 0; row < element.count; ++row)
+        for (const PlyProperty& property : element.properties) {
+            if (&property == &wanted)
+                f(row, at);
+            at += stored_size(property, at);
+        }
+}
+
+/// The list of vertex indices of faces or strips; null if there is none.
+const PlyProperty* corner_list(const PlyElement& element);
+
+/// The element `face` of a mesh: vertex_indices, and texcoord, red green blue alpha if the mesh has them.
+PlyElement face_element(const Mesh& mesh);
+
 /// A document for a mesh that was not read from a PLY file: `vertex` with x y z, and nx ny nz, s t, red green blue
-/// alpha if the mesh has them; `face` with vertex_indices, and texcoord, red green blue alpha if it has them.
+/// alpha if the mesh has them; and face_element().
 /// Coordinates are float, or double if float would move a vertex by more than 1e-6 of the diagonal.
 PlyDocument make_ply_document(const Mesh& mesh);
 

@@ -20,14 +20,12 @@ std::string_view without_blanks_around(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (line = without_blanks_around(line); !line.empty() && words.size() < 8;) {
-        const std::size_t length = std::min(line.find_first_of(" \t\v\f"), line.size());
-        words.push_back(line.substr(0, length));
-        line = without_blanks_around(line.substr(length));
-    }
-    return words;
+/// Removes the first word of `line` and the blanks around it. Empty at the end of the line.
+std::string_view take_word(std::string_view& line) {
+    line = without_blanks_around(line);
+    const std::string_view word = line.substr(0, std::min(line.find_first_of(" \t\v\f"), line.size()));
+    line = without_blanks_around(line.substr(word.size()));
+    return word;
 }
 
 class HeaderParser {
@@ -70,68 +68,78 @@ class HeaderParser {
     }
 
     void parse_line() {
-        const std::vector<std::string_view> words = words_of(line_);
-        if (words.empty())
+        std::string_view rest = line_;
+        const std::string_view keyword = take_word(rest);
+        if (keyword.empty())
             return;
-        if (words[0] == "comment" || words[0] == "obj_info")
+        if (keyword == "comment" || keyword == "obj_info")
             header_.document.comments.emplace_back(line_.substr(0, line_.find_last_not_of('\r') + 1));
-        else if (words[0] == "format")
-            parse_format(words);
-        else if (words[0] == "element")
-            parse_element(words);
-        else if (words[0] == "property")
-            parse_property(words);
+        else if (keyword == "format")
+            parse_format(rest);
+        else if (keyword == "element")
+            parse_element(rest);
+        else if (keyword == "property")
+            parse_property(rest);
         else
-            fail(in_quotes(words[0]) +
+            fail(in_quotes(keyword) +
                  " is not a keyword of a PLY header; is the header damaged or end_header missing?");
     }
 
-    void parse_format(const std::vector<std::string_view>& words) {
+    void parse_format(std::string_view rest) {
         if (has_format_)
             fail("a second format line; remove one");
         has_format_ = true;
-        if (words.size() != 3 || words[2] != "1.0")
+        const std::string_view name = take_word(rest);
+        if (rest != "1.0")
             fail("the format line must read 'format NAME 1.0'");
-        if (words[1] == "ascii")
+        if (name == "ascii")
             header_.format = PlyFormat::ascii;
-        else if (words[1] == "binary_little_endian")
+        else if (name == "binary_little_endian")
             header_.format = PlyFormat::little_endian;
-        else if (words[1] == "binary_big_endian")
+        else if (name == "binary_big_endian")
             header_.format = PlyFormat::big_endian;
         else
-            fail(in_quotes(words[1]) +
-                 " is not a PLY format; these are ascii, binary_little_endian and binary_big_endian");
+            fail(in_quotes(name) + " is not a PLY format; these are ascii, binary_little_endian and binary_big_endian");
     }
 
-    void parse_element(const std::vector<std::string_view>& words) {
-        if (words.size() != 3)
+    /// The name may contain blanks.
+    void parse_element(std::string_view rest) {
+        const std::size_t last_blank = rest.find_last_of(" \t\v\f");
+        if (last_blank == std::string_view::npos)
             fail("an element line must read 'element NAME COUNT'");
+        const std::string_view name = without_blanks_around(rest.substr(0, last_blank));
+        const std::string_view number = rest.substr(last_blank + 1);
         std::size_t count = 0;
-        const char* const last = words[2].data() + words[2].size();
-        const auto [end, error] = std::from_chars(words[2].data(), last, count);
-        if (error != std::errc() || end != last)
-            fail(in_quotes(words[2]) + " is not a number of elements; export the file again");
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), count);
+        if (error != std::errc() || end != number.data() + number.size())
+            fail(in_quotes(number) + " is not a number of elements; export the file again");
         std::vector<PlyElement>& elements = header_.document.elements;
-        if (header_.document.find(words[1]) != nullptr)
-            fail("a second element " + in_quotes(words[1]) + "; remove one");
+        if (header_.document.find(name) != nullptr)
+            fail("a second element " + in_quotes(name) + "; remove one");
         if (elements.size() == most_names)
             fail("more than " + grouped(most_names) + " elements; export fewer");
-        elements.push_back({std::string(words[1]), count, {}, {}});
+        elements.push_back({std::string(name), count, {}, {}});
         header_.element_line.push_back(line_.data());
     }
 
-    void parse_property(const std::vector<std::string_view>& words) {
+    /// The name is the rest of the line, which may contain blanks.
+    void parse_property(std::string_view rest) {
         if (header_.document.elements.empty())
             fail("a property before the first element; is an element line missing?");
-        const bool is_list = words.size() > 1 && words[1] == "list";
-        if (words.size() != (is_list ? 5u : 3u))
+        std::string_view type = take_word(rest), count_type;
+        const bool is_list = type == "list";
+        if (is_list) {
+            count_type = take_word(rest);
+            type = take_word(rest);
+        }
+        if (rest.empty())
             fail("a property line must read 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
         PlyElement& element = header_.document.elements.back();
-        PlyProperty property{std::string(words.back()), type_named(words[words.size() - 2]), {}};
+        PlyProperty property{std::string(rest), type_named(type), {}};
         if (is_list) {
-            property.count_type = type_named(words[2]);
+            property.count_type = type_named(count_type);
             if (!is_integral(*property.count_type))
-                fail("the count of a list cannot be of type " + in_quotes(words[2]) + "; export the file again");
+                fail("the count of a list cannot be of type " + in_quotes(count_type) + "; export the file again");
         }
         if (element.find(property.name) != nullptr)
             fail("a second property " + in_quotes(property.name) + " of element " + in_quotes(element.name) +

@@ -2,6 +2,7 @@
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/ply/ply_parse.h"
+#include "alcove/mesh/formats/ply/ply_strips.h"
 #include "alcove/mesh/formats/text_encoding.h"
 #include "alcove/mesh/normals.h"
 
@@ -11,28 +12,6 @@
 
 namespace alcove {
 namespace {
-
-/// Calls f(row, bytes of the property) for all rows.
-template <class F>
-void for_each_value(const PlyElement& element, const PlyProperty& wanted, F&& f) {
-    if (element.count == 0)
-        return; // the pointer may be null
-    const std::byte* at = element.rows.data();
-    if (!element.has_lists()) {
-        const std::size_t stride = element.smallest_row();
-        for (const PlyProperty* p = element.properties.data(); p != &wanted; ++p)
-            at += size_of(p->type);
-        for (std::size_t row = 0; row < element.count; ++row, at += stride)
-            f(row, at);
-        return;
-    }
-    for (std::size_t row = 0; row < element.count; ++row)
-        for (const PlyProperty& property : element.properties) {
-            if (&property == &wanted)
-                f(row, at);
-            at += stored_size(property, at);
-        }
-}
 
 const PlyProperty* find_scalar(const PlyElement& element, std::string_view name) {
     const PlyProperty* property = element.find(name);
@@ -61,33 +40,50 @@ std::optional<std::array<const PlyProperty*, N>> find_all(const PlyElement& elem
     return properties;
 }
 
-/// The list of vertex indices; null if there is none.
-const PlyProperty* corner_list(const PlyElement& faces) {
-    const PlyProperty* list = faces.find("vertex_indices");
-    if (list == nullptr)
-        list = faces.find("vertex_index");
-    return list != nullptr && list->count_type && is_integral(list->type) ? list : nullptr;
+/// The element that looks like the faces under another name: with a list of whole numbers.
+const PlyElement* misnamed_faces(const PlyDocument& document) {
+    for (const PlyElement& element : document.elements)
+        if (element.name != "vertex" && element.name != "range_grid") // the points of a range scan, in rows
+            for (const PlyProperty& property : element.properties)
+                if (property.count_type && is_integral(property.type))
+                    return &element;
+    return nullptr;
 }
 
-void check_header(const FileBytes& file, const PlyHeader& header) {
-    const auto fail = [&](const std::string& message) { file.fail_at_line(header.body - 1, message); };
-    const PlyElement* vertices = header.document.find("vertex");
-    const PlyElement* faces = header.document.find("face");
+/// The names in quotes, separated by commas.
+template <class Named>
+std::string names_in(const std::vector<Named>& items) {
+    std::string names;
+    for (const Named& item : items)
+        names += (names.empty() ? "" : ", ") + in_quotes(item.name);
+    return names.empty() ? "nothing" : names;
+}
+
+void check_vertices(const PlyDocument& document, const auto& fail) {
+    const PlyElement* vertices = document.find("vertex");
     if (vertices == nullptr)
-        fail("the header declares no element 'vertex'; export the file again");
+        fail("the header declares no element 'vertex' but " + names_in(document.elements) +
+             "; rename the one that holds the points, or export the file again");
     for (const std::string_view name : {"x", "y", "z"}) {
         const PlyProperty* property = vertices->find(name);
         if (property == nullptr)
-            fail("the header declares no property " + in_quotes(name) + " of the vertices; export the file again");
+            fail("the header declares no property " + in_quotes(name) + " of the vertices but " +
+                 names_in(vertices->properties) + "; export the file again");
         if (property->count_type)
             fail("the header declares " + in_quotes(name) +
                  " as a list where one number is needed; export the file again");
     }
-    if (faces == nullptr && header.document.find("tristrips") != nullptr)
-        fail("the header stores the surface as triangle strips; export it with faces");
-    if (faces != nullptr && faces->count > 0 && corner_list(*faces) == nullptr)
-        fail("the header declares no list of whole numbers 'vertex_indices' of the faces; export the file "
-             "again");
+}
+
+/// `surface`: faces or strips; null if there are none.
+void check_surface(const PlyDocument& document, const PlyElement* surface, const auto& fail) {
+    const PlyElement* misnamed = surface == nullptr ? misnamed_faces(document) : nullptr;
+    if (misnamed != nullptr)
+        fail("the header declares no element 'face' but " + in_quotes(misnamed->name) + " with " +
+             names_in(misnamed->properties) + "; if these are the faces, rename them to 'face' and 'vertex_indices'");
+    if (surface != nullptr && surface->count > 0 && corner_list(*surface) == nullptr)
+        fail("the header declares no list of whole numbers 'vertex_indices' of the faces but " +
+             names_in(surface->properties) + "; rename the list that holds the corners, or export the file again");
 }
 
 void read_normals(const PlyElement& vertices, Mesh& mesh) {
@@ -107,29 +103,46 @@ void read_vertex_uvs(const PlyElement& vertices, Mesh& mesh) {
             return read_components(vertices, *properties, mesh.vertex_uvs);
 }
 
-/// A colour component as a byte: floats range to 1, ushorts to 65535, the other types to 255.
-std::uint8_t color_component(double value, PlyType type) {
-    if (!is_integral(type))
-        value *= 255.0;
-    else if (type == PlyType::uint16)
-        value /= 257.0;
-    return color_byte(value);
+/// The largest value of full brightness: the values themselves tell the range.
+double full_scale(double largest, bool integral) {
+    constexpr double rounding = 1e-3;
+    return largest <= 1.0 + rounding && !integral ? 1.0 : largest <= 255.0 + rounding ? 255.0 : 65535.0;
+}
+
+/// Reads components `first` and the following ones, which have the same range.
+void read_components_of_colors(const PlyElement& element, std::span<const PlyProperty* const> properties,
+                               std::size_t first, std::vector<Color>& colors) {
+    double largest = 0.0;
+    for (const PlyProperty* property : properties)
+        if (property->type != PlyType::uint8)
+            for_each_value(element, *property, [&](std::size_t, const std::byte* bytes) {
+                const double value = number_at(bytes, property->type);
+                largest = value > largest ? value : largest; // not NaN
+            });
+    for (const PlyProperty* property : properties) {
+        const double scale = 255.0 / full_scale(largest, is_integral(property->type));
+        for_each_value(element, *property, [&](std::size_t row, const std::byte* bytes) {
+            colors[row][first] = color_byte(scale * number_at(bytes, property->type));
+        });
+        ++first;
+    }
 }
 
 void read_colors(const PlyElement& element, std::vector<Color>& colors) {
-    const auto properties = find_all<3>(element, {"red", "green", "blue"});
-    if (!properties)
+    constexpr std::array<std::array<std::string_view, 4>, 3> names{
+        {{"red", "green", "blue", "alpha"},
+         {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"},
+         {"r", "g", "b", "a"}}};
+    for (const auto& [red, green, blue, alpha] : names) {
+        const auto properties = find_all<3>(element, {red, green, blue});
+        if (!properties)
+            continue;
+        colors.assign(element.count, Color{0, 0, 0, 255});
+        read_components_of_colors(element, *properties, 0, colors);
+        if (const PlyProperty* found = find_scalar(element, alpha))
+            read_components_of_colors(element, std::array{found}, 3, colors);
         return;
-    colors.assign(element.count, Color{0, 0, 0, 255});
-    const auto read_component = [&](const PlyProperty& property, std::size_t component) {
-        for_each_value(element, property, [&](std::size_t row, const std::byte* bytes) {
-            colors[row][component] = color_component(number_at(bytes, property.type), property.type);
-        });
-    };
-    for (std::size_t c = 0; c < 3; ++c)
-        read_component(*(*properties)[c], c);
-    if (const PlyProperty* alpha = find_scalar(element, "alpha"))
-        read_component(*alpha, 3);
+    }
 }
 
 void read_faces(const FileBytes& file, const PlyHeader& header, const PlyElement& faces, Mesh& mesh) {
@@ -177,6 +190,17 @@ void read_corner_uvs(const PlyElement& faces, Mesh& mesh) {
                                 " no texture coordinates for each corner; (0, 0) is used");
 }
 
+/// Warns of bytes behind the rows. Quotes the first line of a text.
+void warn_of_rest(const FileBytes& file, PlyFormat format, std::size_t bytes, Mesh& mesh) {
+    const std::string_view rest = file.view().substr(file.size() - bytes);
+    const bool is_text = format == PlyFormat::ascii;
+    if (bytes == 0 || (is_text && is_padding(rest)))
+        return;
+    mesh.warnings.push_back(counted(bytes, "byte after the last row was", "bytes after the last row were") +
+                            " not read" +
+                            (is_text ? ": " + in_quotes(rest.substr(0, rest.find_first_of("\r\n"))) : ""));
+}
+
 }
 
 bool begins_as_ply(const FileBytes& file) {
@@ -186,25 +210,35 @@ bool begins_as_ply(const FileBytes& file) {
 
 Mesh read_ply(const FileBytes& file) {
     PlyHeader header = parse_ply_header(file);
-    check_header(file, header);
-    const PlyElement* vertices = header.document.find("vertex");
-    const PlyElement* faces = header.document.find("face");
+    const auto fail = [&](const std::string& message) { file.fail_at_line(header.body - 1, message); };
+    const PlyElement *faces = header.document.find("face"), *strips = header.document.find("tristrips");
+    const bool in_strips = strips != nullptr && strips->count > 0 && (faces == nullptr || faces->count == 0);
+    check_vertices(header.document, fail);
+    check_surface(header.document, in_strips ? strips : faces, fail);
 
     Mesh mesh;
-    if (const std::size_t left = parse_ply_rows(file, header); left > 0)
-        mesh.warnings.push_back(grouped(left) + " bytes after the last row were not read");
-    if (faces == nullptr)
-        fail_without_faces(file, header.body - 1, vertices->count);
-    if (faces->count == 0)
+    const std::size_t left = parse_ply_rows(file, header);
+    warn_of_rest(file, header.format, left, mesh);
+    const PlyElement& vertices = *header.document.find("vertex");
+    if (faces == nullptr && !in_strips)
+        fail_without_faces(file, header.body - 1, vertices.count);
+    if (!in_strips && faces->count == 0)
         fail_without_faces(file, header.element_line[static_cast<std::size_t>(faces - header.document.elements.data())],
-                           vertices->count);
-    read_components(*vertices, *find_all<3>(*vertices, {"x", "y", "z"}), mesh.positions);
-    read_normals(*vertices, mesh);
-    read_vertex_uvs(*vertices, mesh);
-    read_colors(*vertices, mesh.vertex_colors);
-    read_faces(file, header, *faces, mesh);
-    read_corner_uvs(*faces, mesh);
-    read_colors(*faces, mesh.face_colors);
+                           vertices.count);
+    read_components(vertices, *find_all<3>(vertices, {"x", "y", "z"}), mesh.positions);
+    read_normals(vertices, mesh);
+    read_vertex_uvs(vertices, mesh);
+    read_colors(vertices, mesh.vertex_colors);
+    if (in_strips) {
+        read_strips(file, header, mesh);
+    } else {
+        read_faces(file, header, *faces, mesh);
+        read_corner_uvs(*faces, mesh);
+        read_colors(*faces, mesh.face_colors);
+        if (strips != nullptr && strips->count > 0)
+            mesh.warnings.push_back("the file has faces and " + grouped(strips->count) +
+                                    " rows of triangle strips; these are kept but are no part of the surface");
+    }
     mesh.source = std::make_shared<PlyDocument>(std::move(header.document));
     return mesh;
 }
