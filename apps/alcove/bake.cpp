@@ -314,8 +314,8 @@ void add_occluders(CLI::App& app, BakeVerb& verb) {
 void add_colors(CLI::App& app, BakeVerb& verb) {
     add_choice<ColorUse>(
         app, "--color", verb.add.color, {{"ao", ColorUse::ao}, {"none", ColorUse::none}},
-        "ao: also write ao as vertex colours and `quality`; none: do not. Default: ao, unless the input has its own "
-        "vertex colours or `quality`")
+        "ao: also write ao as vertex colours and `quality`; none: do not. Default: ao, unless the input has "
+        "vertex colours or its own `quality`")
         ->type_name("WHAT");
     add_choice<ColorEncoding>(app, "--color-encoding", verb.add.encoding,
                               {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}},

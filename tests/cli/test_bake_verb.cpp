@@ -3,6 +3,7 @@
 #include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/read.h"
 
+#include <array>
 #include <set>
 
 namespace alcove::test {
@@ -130,6 +131,68 @@ TEST_F(BakeVerb, KeepsTheColoursAndQualityOfTheInput) {
     const float wanted[] = {0.25f, 0.5f, 0.75f, -3.0f};
     for (std::size_t v = 0; v < 4; ++v)
         EXPECT_EQ(number_at(vertices.rows.data() + v * 20 + 12, PlyType::float32), wanted[v]);
+}
+
+/// A triangle with a property of its vertices.
+std::string triangle_with(const std::string& property, const std::array<std::string, 3>& values) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" +
+           property + "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " + values[0] +
+           "\n1 0 0 " + values[1] + "\n0 1 0 " + values[2] + "\n3 0 1 2\n";
+}
+
+TEST_F(BakeVerb, AnyComponentOfAColourIsTheInputsOwn) {
+    for (const char* name : {"red", "green", "blue", "alpha"}) {
+        write("own.ply", triangle_with("property uchar " + std::string(name) + "\n", {"10", "20", "30"}));
+        const Outcome outcome = run({"bake", "own.ply", "-o", "a.ply", "--json"});
+        ASSERT_EQ(outcome.code, done) << outcome.err;
+        EXPECT_TRUE(outcome.json().at("warnings").empty()) << outcome.err;
+        const std::string baked = bytes_of("a.ply"), header = header_of(baked);
+        EXPECT_EQ(count_of(header, "property uchar "), 1u) << header;
+        const float one[] = {1.0f, 0.0f, 0.0f};
+        const std::string row = std::string(reinterpret_cast<const char*>(one), sizeof one) + '\x14';
+        EXPECT_NE(baked.find(row), std::string::npos) << name;
+        EXPECT_EQ(run({"bake", "own.ply", "-o", "a.ply", "--color", "ao", "--json"}).json().at("warnings"),
+                  nlohmann::json({"the property '" + std::string(name) + "' of the input is replaced"}));
+    }
+}
+
+TEST_F(BakeVerb, NamesThePropertiesOfOtherProgramsThatItReplaces) {
+    write("own.ply", triangle_with("property uchar ao\nproperty float convexity\n", {"11 0", "22 0", "33 0"}));
+    const Outcome first = run({"bake", "own.ply", "-o", "a.ply", "--json"});
+    ASSERT_EQ(first.code, done) << first.err;
+    EXPECT_EQ(first.json().at("warnings"), nlohmann::json({"the property 'ao' of the input is replaced"}));
+    EXPECT_TRUE(run({"bake", "a.ply", "-o", "b.ply", "--json"}).json().at("warnings").empty());
+    const nlohmann::json both = run({"bake", "a.ply", "-o", "b.ply", "--attributes", "ao,convexity", "--json"}).json();
+    EXPECT_NE(both.at("warnings").dump().find("the property 'convexity' of the input is replaced"), std::string::npos);
+    EXPECT_EQ(both.at("warnings").dump().find("'ao'"), std::string::npos) << both;
+}
+
+TEST_F(BakeVerb, QualityOfTheInputOutlivesSeveralBakes) {
+    write("own.ply", triangle_with("property float quality\n", {"7", "8", "9"}));
+    ASSERT_EQ(run({"bake", "own.ply", "-o", "a.ply"}).code, done);
+    ASSERT_EQ(run({"bake", "a.ply", "-o", "a.ply"}).code, done);
+    const float second[] = {1.0f, 0.0f, 0.0f, 8.0f};
+    EXPECT_NE(bytes_of("a.ply").find(std::string(reinterpret_cast<const char*>(second), sizeof second)),
+              std::string::npos);
+}
+
+TEST_F(BakeVerb, ColoursOfAnEarlierBakeStayWithAWarning) {
+    write("corner.off", "OFF\n6 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n0 1 1\n3 0 1 2\n3 0 2 3\n3 0 3 5\n3 0 5 4\n");
+    ASSERT_EQ(run({"bake", "corner.off", "-o", "a.ply", "--radius", "0.01%", "--method", "exact"}).code, done);
+    const Mesh before = read_mesh(folder_ / "work/a.ply");
+    for (const std::vector<std::string>& color : {std::vector<std::string>{}, {"--color", "none"}}) {
+        std::vector<std::string> arguments{"bake", "a.ply",    "-o",    "b.ply", "--radius",
+                                           "inf",  "--method", "exact", "--json"};
+        arguments.insert(arguments.end(), color.begin(), color.end());
+        const Outcome kept = run(arguments);
+        ASSERT_EQ(kept.code, done) << kept.err;
+        EXPECT_NE(kept.err.find("the vertex colours are kept but are not this ao"), std::string::npos) << kept.err;
+        EXPECT_EQ(read_mesh(folder_ / "work/b.ply").vertex_colors, before.vertex_colors);
+    }
+    const Outcome replaced =
+        run({"bake", "a.ply", "-o", "b.ply", "--radius", "inf", "--method", "exact", "--color", "ao"});
+    EXPECT_EQ(replaced.err.find("colours"), std::string::npos) << replaced.err;
+    EXPECT_NE(read_mesh(folder_ / "work/b.ply").vertex_colors, before.vertex_colors);
 }
 
 TEST_F(BakeVerb, WritesObjWithColoursAndEveryOtherLineOfTheInput) {

@@ -203,3 +203,22 @@ TEST_F(PlyVariants, TextBehindTheRowsIsQuoted) {
         EXPECT_EQ(mesh.warnings, warnings);
     }
 }
+
+TEST_F(PlyVariants, ReplacedPropertiesAreNamedUnlessAnEarlierRunMadeThem) {
+    const std::string file = triangle_with("property uchar ao\nproperty float bent_y\n", {"11 0", "22 0", "33 0"});
+    Mesh mesh = read("own.ply", file);
+    mesh.set_attribute({"ao", 1, {0, .5f, 1}});
+    mesh.set_attribute({"bent_normal", 3, std::vector<float>(9)});
+    mesh.added_comments = {"baker 1: ao, bent_normal by hand"};
+    EXPECT_EQ(write_mesh(mesh, path("out.ply")),
+              (std::vector<std::string>{"the property 'ao' of the input is replaced",
+                                        "the property 'bent_y' of the input is replaced"}));
+    Mesh again = read_mesh(path("out.ply"));
+    again.set_attribute(mesh.attributes[0]);
+    again.set_attribute(mesh.attributes[1]);
+    EXPECT_EQ(write_mesh(again, path("twice.ply")).size(), 4u) << "nothing says that the run is of the same program";
+    again.added_comments = {"baker 2: ao, bent_normal by machine"};
+    EXPECT_TRUE(write_mesh(again, path("twice.ply")).empty());
+    again.set_attribute({"thickness", 1, {1, 2, 3}});
+    EXPECT_TRUE(write_mesh(again, path("twice.ply")).empty()) << "the input has no such property";
+}

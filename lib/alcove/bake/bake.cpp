@@ -241,13 +241,34 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
     }
 }
 
-/// Whether to add ao as colours and `quality`: not if the mesh already has either, unless an earlier bake added them.
+bool has_property(const Mesh& mesh, std::string_view name) {
+    return mesh.source && mesh.source->has_vertex_property(name);
+}
+
+bool has_colors(const Mesh& mesh) {
+    return !mesh.vertex_colors.empty() || has_property(mesh, "red") || has_property(mesh, "green") ||
+           has_property(mesh, "blue") || has_property(mesh, "alpha");
+}
+
+/// Whether to add ao as colours and `quality`: not if the mesh has either of its own. An .obj stores ao only as colours,
+/// so those of an earlier bake are replaced.
 bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
         return baked.attributes.has(Channel::ao) && use == ColorUse::ao;
-    if (is_baked(mesh))
+    if (mesh.format == "OBJ" && !earlier_bake(mesh).empty())
         return true;
-    return mesh.vertex_colors.empty() && !(mesh.source && mesh.source->has_vertex_property("quality"));
+    return !has_colors(mesh) && (!has_property(mesh, "quality") || names_value(earlier_bake(mesh), "quality"));
+}
+
+/// Warns if the colours that stay are those of an earlier bake with other values.
+void warn_of_earlier_colors(Mesh& mesh, const std::vector<float>& ao) {
+    const std::vector<Color>& colors = mesh.vertex_colors;
+    if (!has_baked_colors(mesh) || ao.empty() || colors == grey_colors(ao) ||
+        colors == grey_colors(ao, ColorEncoding::raw))
+        return;
+    mesh.warnings.emplace_back(
+        "the vertex colours are kept but are not this ao: an earlier bake made them; add --color "
+        "ao to replace them");
 }
 
 }
@@ -295,18 +316,22 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
             throw InputError(fmt::format("{} values of {} were baked, but the mesh has {} vertices",
                                          values.size() / channel.components, channel.name, mesh.vertex_count()));
     const bool colored = wants_colors(options.color, baked, mesh);
-    if (colored) {
+    // The `quality` of an earlier bake is out of date.
+    const bool rated =
+        colored || (!baked.ao().empty() && has_property(mesh, "quality") && names_value(earlier_bake(mesh), "quality"));
+    if (colored)
         mesh.added_colors = grey_colors(baked.ao(), options.encoding);
+    else
+        warn_of_earlier_colors(mesh, baked.ao());
+    if (rated)
         mesh.set_attribute({"quality", 1, baked.ao()});
-    } else if (is_baked(mesh) && mesh.source->has_vertex_property("quality") && !baked.ao().empty()) {
-        mesh.set_attribute({"quality", 1, baked.ao()}); // that of the earlier bake is out of date
-    }
     for (const ChannelInfo& channel : channels)
         if (const auto& values = baked[channel.channel]; !values.empty())
             mesh.set_attribute({std::string(channel.name), static_cast<int>(channel.components), values});
     const GridSummary& grid = baked.grid_summary;
-    mesh.added_comments.push_back(fmt::format("{}{}: {} by {}, radius {:.6g}, {}", provenance, ALCOVE_VERSION,
-                                              names_of(baked.attributes), baked.method, baked.radius,
+    mesh.added_comments.push_back(fmt::format("{}{}: {}{} by {}, radius {:.6g}, {}", provenance, ALCOVE_VERSION,
+                                              names_of(baked.attributes), rated ? ", quality" : "", baked.method,
+                                              baked.radius,
                                               grid.levels > 0 ? fmt::format("voxel {:.6g}", grid.voxel) : grid.text()));
     return colored;
 }

@@ -165,7 +165,7 @@ Mesh tessellate_for_ao(const Mesh& mesh, const BakeOptions& options = {});
 
 /// What add() does with ao in addition to the attribute `ao`.
 enum class ColorUse {
-    automatic, ///< adds vertex colours and `quality`, unless the mesh already has either of its own
+    automatic, ///< adds vertex colours and `quality`, unless the mesh already has colours or its own `quality`
     ao,        ///< adds both, and replaces those of the mesh
     none,      ///< adds neither
 };
@@ -175,7 +175,8 @@ struct AddOptions {
 };
 
 /// Adds the values that were baked at the vertices of `mesh` as attributes named like the channels, ao also as colours
-/// and `quality` (see ColorUse), and a comment with the method and its settings. \return whether colours were added.
+/// and `quality` (see ColorUse), and a comment with the method and its settings. Adds a warning to `mesh` if it keeps
+/// the colours of an earlier bake. \return whether colours were added.
 /// \throw InputError if the numbers of values and vertices do not match. Cost: linear.
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options = {});
 

@@ -10,11 +10,10 @@ namespace alcove {
 /// The beginning of the comment that a bake adds.
 inline constexpr std::string_view provenance = "alcove ";
 
-/// Whether the file was written by an earlier bake.
-bool is_baked(const Mesh& mesh);
+/// The comment of an earlier bake in the file; empty if there is none.
+std::string_view earlier_bake(const Mesh& mesh);
 
-/// Whether the vertex colours are the ao of an earlier bake. If the mesh had colours of its own, the bake kept them and
-/// a PLY has no `quality`.
+/// Whether the vertex colours are the ao of an earlier bake: grey, and a PLY has `quality`, which a bake adds with them.
 bool has_baked_colors(const Mesh& mesh);
 
 }

@@ -12,13 +12,24 @@ class SourceDocument {
     virtual ~SourceDocument() = default;
     /// Whether each vertex has a value of that name ("quality", "red", ...) that is written back.
     virtual bool has_vertex_property(std::string_view) const { return false; }
-    /// Whether a comment line of the file begins with that text.
-    virtual bool has_comment(std::string_view) const { return false; }
+    /// The first comment of the file that begins with that text; empty if there is none.
+    virtual std::string_view comment(std::string_view) const { return {}; }
 
   protected:
     SourceDocument() = default;
     SourceDocument(const SourceDocument&) = default;
     SourceDocument& operator=(const SourceDocument&) = default;
 };
+
+/// Whether a comment about an earlier run, such as "alcove 0.2.0: ao, convexity by exact:64", names a value.
+inline bool names_value(std::string_view comment, std::string_view value) {
+    const auto is_letter = [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); };
+    for (std::size_t at = 0; (at = comment.find(value, at)) != std::string_view::npos; ++at) {
+        const std::size_t end = at + value.size();
+        if ((at == 0 || !is_letter(comment[at - 1])) && (end == comment.size() || !is_letter(comment[end])))
+            return true;
+    }
+    return false;
+}
 
 }

@@ -18,9 +18,14 @@ class ObjDocument : public SourceDocument {
     std::filesystem::path folder;          ///< that of the file, from which it names other files
     std::vector<std::size_t> vertex_lines; ///< byte offset of the 'v' of each vertex, in file order
     std::vector<std::size_t> file_lines;   ///< byte offset of each keyword that is followed by names of files
-    bool has_comment(std::string_view beginning) const override {
-        const std::string line = "# " + std::string(beginning);
-        return text.find("\n" + line) != std::string::npos || without_byte_order_mark(text).starts_with(line);
+    std::string_view comment(std::string_view beginning) const override {
+        const std::string line = "\n# " + std::string(beginning);
+        const std::string_view start = without_byte_order_mark(text);
+        const std::size_t place = start.starts_with(line.substr(1)) ? text.size() - start.size() : text.find(line);
+        if (place == std::string::npos)
+            return {};
+        const std::size_t at = text.find(beginning, place);
+        return std::string_view(text).substr(at, text.find_first_of("\r\n", at) - at);
     }
 
     /// The faces from `first_face` to the next use have the material `name`.

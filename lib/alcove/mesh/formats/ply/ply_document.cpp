@@ -119,10 +119,12 @@ const PlyElement* PlyDocument::find(std::string_view element) const {
     return found == elements.end() ? nullptr : &*found;
 }
 
-bool PlyDocument::has_comment(std::string_view beginning) const {
-    return std::any_of(comments.begin(), comments.end(), [&](std::string_view line) {
-        return line.starts_with("comment ") && line.substr(8).starts_with(beginning);
-    });
+std::string_view PlyDocument::comment(std::string_view beginning) const {
+    constexpr std::string_view keyword = "comment ";
+    for (const std::string_view line : comments)
+        if (line.starts_with(keyword) && line.substr(keyword.size()).starts_with(beginning))
+            return line.substr(keyword.size());
+    return {};
 }
 
 bool PlyDocument::has_vertex_property(std::string_view name) const {

@@ -102,7 +102,7 @@ class PlyDocument : public SourceDocument {
 
     const PlyElement* find(std::string_view element) const;
     bool has_vertex_property(std::string_view name) const override;
-    bool has_comment(std::string_view beginning) const override;
+    std::string_view comment(std::string_view beginning) const override;
 };
 
 /// Calls f(row, bytes of the property) for all rows.

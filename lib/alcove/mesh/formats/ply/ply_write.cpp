@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace alcove {
 namespace {
 
 constexpr std::size_t chunk_size = std::size_t(1) << 22;
+constexpr std::array<const char*, 4> color_names{"red", "green", "blue", "alpha"};
 
 /// A scalar property to write: one value per row, `stride` bytes apart.
 struct Column {
@@ -39,7 +41,7 @@ std::vector<Column> added_columns(const Mesh& mesh) {
                                sizeof(float) * static_cast<std::size_t>(attribute.components)});
     if (!mesh.added_colors.empty()) {
         const auto* bytes = reinterpret_cast<const std::byte*>(mesh.added_colors.data());
-        for (const char* name : {"red", "green", "blue", "alpha"})
+        for (const char* name : color_names)
             columns.push_back({name, PlyType::uint8, bytes++, sizeof(Color)});
     }
     return columns;
@@ -148,6 +150,26 @@ std::string header_comments(const PlyDocument& document, const Mesh& mesh) {
     return text;
 }
 
+/// Lists the properties of the vertices that the columns replace, except whole colours, and values that a comment says an
+/// earlier run of the same program made.
+void list_replaced(const PlyDocument& document, const Mesh& mesh, std::vector<std::string>& lost) {
+    const auto list = [&](const std::string& name) {
+        if (document.has_vertex_property(name))
+            lost.push_back("the property " + in_quotes(name) + " of the input is replaced");
+    };
+    const auto made_before = [&](const std::string& name) {
+        return std::any_of(mesh.added_comments.begin(), mesh.added_comments.end(), [&](const std::string& comment) {
+            return names_value(document.comment(comment.substr(0, comment.find(' ') + 1)), name);
+        });
+    };
+    for (const Attribute& attribute : mesh.attributes)
+        for (int c = 0; c < attribute.components && !made_before(attribute.name); ++c)
+            list(column_name(attribute, c));
+    if (!mesh.added_colors.empty() && mesh.vertex_colors.empty())
+        for (const char* name : color_names)
+            list(name);
+}
+
 bool belongs_to(const PlyDocument& document, const Mesh& mesh) {
     const PlyElement* vertices = document.find("vertex");
     const PlyElement* faces = document.find("face");
@@ -176,6 +198,7 @@ std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path
             lost.push_back("not stored in PLY: the weights of " + counted(text->weights, "vertex", "vertices"));
     }
 
+    list_replaced(*document, mesh, lost);
     const std::vector<Column> columns = added_columns(mesh);
     const std::vector<Column> no_columns;
     std::vector<ElementWriter> writers;
