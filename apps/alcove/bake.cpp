@@ -2,6 +2,7 @@
 #include "ending.h"
 #include "inputs.h"
 #include "options.h"
+#include "weld.h"
 
 #include "alcove/bake/bake.h"
 #include "alcove/base/detail/memory.h"
@@ -30,6 +31,7 @@ struct BakeVerb {
     std::string output, grid, write_grid, tessellate;
     std::optional<Vec3d> up;
     std::optional<Quality> quality;
+    std::optional<Length> weld;
     float adaptivity = 0.0f;
     bool strict = false;
 };
@@ -63,6 +65,8 @@ void check_usage(const BakeVerb& verb) {
         throw UsageError("--adaptivity is for grids: " + verb.inputs.front() + " is a mesh already");
     if (meshed && !verb.tessellate.empty())
         throw UsageError("--tessellate is for meshes: a .vdb input is meshed with faces of one voxel");
+    if (meshed && verb.weld)
+        throw UsageError("--weld is for meshes: a .vdb input has no vertices");
     if (verb.inputs.size() > 1 && (!verb.grid.empty() || !verb.write_grid.empty()))
         throw UsageError("--grid and --write-grid take one input: bake the inputs one at a time");
     if (!verb.write_grid.empty())
@@ -109,7 +113,7 @@ class BakeJob {
         Stopwatch watch;
         read(options);
         seconds_["read"] = watch.lap();
-        const Baked baked = bake(mesh_, options);
+        const Baked baked = bake_welded(options);
         seconds_["grid"] = baked.seconds.grid;
         seconds_["occlusion"] = baked.seconds.occlusion;
         seconds_["pilot"] = baked.seconds.pilot;
@@ -134,6 +138,8 @@ class BakeJob {
             mesh_ = surface_of(grid_, file_.input, verb_.adaptivity);
         } else {
             mesh_ = read_mesh(file_.input);
+            if (verb_.weld && mesh_.format == "STL") // its vertices come from joining anyway
+                mesh_ = welded(mesh_, *verb_.weld).mesh;
             if (!verb_.grid.empty())
                 grid_ = read_grids(verb_.grid, {verb_.grid_names});
         }
@@ -145,6 +151,30 @@ class BakeJob {
             const double diagonal = frame_of(mesh_.box()).diagonal;
             mesh_ = tessellate(mesh_, {.longest = Length(verb_.tessellate).to_unit(diagonal) * diagonal});
         }
+    }
+
+    /// Bakes the mesh with its vertices joined if --weld asks for it, and gives each of its vertices the values of the
+    /// joined one.
+    Baked bake_welded(const BakeOptions& options) {
+        if (!verb_.weld || mesh_.format == "STL")
+            return bake(mesh_, options);
+        Mesh mesh = mesh_;
+        if (options.normals == NormalSource::area)
+            mesh.normals.clear(); // these would keep vertices apart
+        const JoinedMesh joined = welded(mesh, *verb_.weld);
+        mesh_.warnings = joined.mesh.warnings;
+        Baked baked = bake(joined.mesh, options);
+        for (const ChannelInfo& channel : channels) {
+            std::vector<float> values;
+            if (baked.attributes.has(channel.channel))
+                for (const std::uint32_t v : joined.vertex_of)
+                    values.insert(values.end(),
+                                  baked[channel.channel].begin() + static_cast<std::ptrdiff_t>(v * channel.components),
+                                  baked[channel.channel].begin() +
+                                      static_cast<std::ptrdiff_t>((v + 1) * channel.components));
+            baked.values[channel.channel] = std::move(values);
+        }
+        return baked;
     }
 
     void write(const Baked& baked) {
@@ -276,6 +306,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
         "areas; auto: file if there are any, else angle")
         ->type_name("SOURCE")
         ->default_str("auto");
+    add_weld_option(app, verb.weld);
     app.add_option("--tessellate", verb.tessellate,
                    "Split faces first, so that ao can vary across them: edges longer than LEN, or auto: wherever ao "
                    "differs from its interpolation by more than the error")

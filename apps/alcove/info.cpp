@@ -1,12 +1,12 @@
 #include "facts.h"
 #include "inputs.h"
 #include "options.h"
+#include "weld.h"
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/mesh/read.h"
 #include "alcove/render/image.h"
 #include "alcove/render/renderer.h"
 #include "alcove/vdb/vdb_file.h"
@@ -26,6 +26,7 @@ namespace {
 struct Options {
     CommonOptions common;
     std::string input;
+    std::optional<Length> weld;
 };
 
 enum class Kind { mesh, grid, image };
@@ -134,9 +135,11 @@ Facts facts_of_image(const std::string& file) {
 void run(const Options& options) {
     const ThreadLimit limit(options.common.threads);
     const Kind kind = kind_of(options.input);
+    if (kind != Kind::mesh && options.weld)
+        throw UsageError("--weld is for meshes: " + options.input + " is none");
     const Facts facts = kind == Kind::grid    ? facts_of_grid(options.input)
                         : kind == Kind::image ? facts_of_image(options.input)
-                                              : facts_of_mesh(read_mesh(options.input));
+                                              : facts_of_mesh(read_welded(options.input, options.weld));
     if (options.common.json)
         print_json(facts.json(options.input));
     else
@@ -150,6 +153,7 @@ void add_info(CLI::App& program) {
         program.add_subcommand("info", "Describe the contents of a mesh, grid or image; meshes are also diagnosed");
     auto options = std::make_shared<Options>();
     verb->add_option("file", options->input, "Mesh (ply, obj, off, stl), grid (vdb) or image (exr, png)")->required();
+    add_weld_option(*verb, options->weld);
     add_common_options(*verb, options->common);
     verb->footer("Example: alcove info model.ply");
     verb->callback([options] { run(*options); });

@@ -95,10 +95,12 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
                                                           {"duplicate_faces", d.duplicate_faces},
                                                           {"coincident_vertices", d.coincident_vertices},
                                                           {"unreferenced_vertices", d.unreferenced_vertices},
-                                                          {"non_finite_vertices", d.non_finite_vertices}};
+                                                          {"non_finite_vertices", d.non_finite_vertices},
+                                                          {"closable_edges", d.closable_edges}};
     auto numbers = nlohmann::ordered_json::object();
     for (const auto& [name, count] : counts)
         numbers[name] = count;
+    numbers["closing_distance"] = d.closing_distance;
     numbers["closed"] = d.closed();
     numbers["watertight"] = d.watertight();
     numbers["oriented"] = d.oriented();

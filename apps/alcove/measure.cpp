@@ -1,6 +1,7 @@
 #include "inputs.h"
 #include "measured_results.h"
 #include "options.h"
+#include "weld.h"
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
@@ -27,6 +28,7 @@ struct MeasureOptions {
     CommonOptions common;
     std::vector<std::string> inputs;
     std::string radius = "10%", voxel = "auto", methods, report, json;
+    std::optional<Length> weld;
 };
 
 /// A length and its text on the command line.
@@ -144,8 +146,9 @@ std::vector<Job> plan_jobs(const std::vector<std::string>& meshes, const std::ve
 /// Caches the inputs that consecutive jobs share, and shows the progress of all jobs.
 class MeasurementInputs {
   public:
-    MeasurementInputs(const std::vector<Job>& jobs, Pictures pictures, ProgressMode mode)
-        : pictures_(pictures), meter_(mode, "measuring") {
+    MeasurementInputs(const std::vector<Job>& jobs, const std::optional<Length>& weld, Pictures pictures,
+                      ProgressMode mode)
+        : weld_(weld), pictures_(pictures), meter_(mode, "measuring") {
         const Job* last = nullptr;
         for (const Job& job : jobs) {
             all_work_ += work_of(job.choice) + (same_truth(last, job) ? 0.0 : truth_work) +
@@ -159,8 +162,8 @@ class MeasurementInputs {
     Measurement measure(const Job& job) {
         if (!last_ || last_->mesh != job.mesh) {
             mesh_.reset();
-            mesh_.emplace(*job.mesh,
-                          is_grid(*job.mesh) ? surface_of(read_grids(*job.mesh), *job.mesh) : read_mesh(*job.mesh));
+            mesh_.emplace(*job.mesh, is_grid(*job.mesh) ? surface_of(read_grids(*job.mesh), *job.mesh)
+                                                        : read_welded(*job.mesh, weld_));
         }
         const double diagonal = mesh_->frame.diagonal;
         const float radius = as_usage([&] { return job.radius->length.to_unit(diagonal); });
@@ -192,6 +195,7 @@ class MeasurementInputs {
         return [this](double done) { meter_((done_work_ + done * step_) / all_work_); };
     }
 
+    std::optional<Length> weld_;
     Pictures pictures_;
     ProgressMeter meter_;
     double all_work_ = 0.0, done_work_ = 0.0, step_ = 0.0;
@@ -208,11 +212,12 @@ struct Failures {
 };
 
 /// Measures the jobs that are not in the results. Skips meshes that cannot be measured.
-Failures measure_missing(const std::vector<Job>& jobs, MeasuredResults& results, Pictures pictures, ProgressMode mode) {
+Failures measure_missing(const std::vector<Job>& jobs, MeasuredResults& results, const MeasureOptions& options) {
     std::vector<Job> missing;
     std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),
                  [&](const Job& job) { return results.find(job.asked) == nullptr; });
-    MeasurementInputs inputs(missing, pictures, mode);
+    MeasurementInputs inputs(missing, options.weld, options.report.empty() ? Pictures::none : Pictures::painted,
+                             options.common.progress_mode());
     Failures failures;
     const std::string* failed = nullptr;
     for (const Job& job : missing) {
@@ -256,12 +261,16 @@ void run(const MeasureOptions& options) {
     const ThreadLimit limit(options.common.threads);
     const std::vector<WrittenLength> radii = parse_radii(options.radius);
     const std::vector<WrittenLength> voxels = parse_voxels(options.voxel);
-    const std::vector<Job> jobs = plan_jobs(options.inputs, radii, voxels, parse_choices(options.methods));
+    std::vector<Job> jobs = plan_jobs(options.inputs, radii, voxels, parse_choices(options.methods));
+    for (Job& job : jobs)
+        if (options.weld)
+            job.asked["weld"] = options.weld->unit == Length::Unit::diagonal
+                                    ? fmt::format("{}%", 100.0 * options.weld->value)
+                                    : fmt::format("{}", options.weld->value);
     if (!options.report.empty())
         const AtomicFile probe(options.report);
     MeasuredResults results(options.json);
-    const auto [failures, bad_input] = measure_missing(
-        jobs, results, options.report.empty() ? Pictures::none : Pictures::painted, options.common.progress_mode());
+    const auto [failures, bad_input] = measure_missing(jobs, results, options);
 
     std::vector<Measurement> measurements;
     for (const Job& job : jobs)
@@ -298,6 +307,7 @@ void add_measure(CLI::App& program) {
     verb->add_option("--voxel", options->voxel, "Edges of the finest voxel, separated by commas: 0.2, 0.5%, auto")
         ->type_name("LEN,...")
         ->capture_default_str();
+    add_weld_option(*verb, options->weld);
     verb->add_option("--methods", options->methods,
                      "NAME, or NAME:N with N samples or rays. Default: all methods, some with several N")
         ->type_name("NAME[:N],...");

@@ -1,5 +1,7 @@
 #include "scene_options.h"
 
+#include "weld.h"
+
 #include "alcove/base/types.h"
 #include "alcove/render/detail/image_method.h"
 #include "alcove/render/image.h"
@@ -106,6 +108,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     verb.add_flag("--no-shadow", request.no_shadow, "Sunlight casts no shadows");
     add_grid_options(verb, request.voxel, request.sign);
     add_grid_names(verb, request.grid_names);
+    add_weld_option(verb, request.weld);
     add_choice<std::optional<bool>>(
         verb, "--normals", request.own_normals, {{"field", false}, {"mesh", true}},
         "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
@@ -124,12 +127,14 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
     MeshShape* mesh = described ? nullptr : std::get_if<MeshShape>(&scene.objects.front().shape);
     if (mesh) {
         mesh->voxel = request.voxel;
+        mesh->weld = request.weld;
         mesh->sign = request.sign;
         mesh->own_normals = request.own_normals.value_or(true);
         mesh->own_colors = request.own_colors.value_or(true);
-    } else if (request.voxel || request.sign != SignChoice::automatic || request.own_normals || request.own_colors) {
-        throw UsageError(fmt::format("--voxel, --sign, --normals and --color are for meshes: {} is a {}", request.input,
-                                     described ? "scene, whose objects set them" : "grid already"));
+    } else if (request.voxel || request.weld || request.sign != SignChoice::automatic || request.own_normals ||
+               request.own_colors) {
+        throw UsageError(fmt::format("--voxel, --weld, --sign, --normals and --color are for meshes: {} is a {}",
+                                     request.input, described ? "scene, whose objects set them" : "grid already"));
     }
     if (GridShape* grid = described ? nullptr : std::get_if<GridShape>(&scene.objects.front().shape))
         grid->names = request.grid_names;

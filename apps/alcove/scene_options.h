@@ -15,7 +15,7 @@ namespace alcove::cli {
 struct SceneRequest {
     std::string input;
     // An empty option keeps the setting of the scene.
-    std::optional<Length> radius{}, voxel{};
+    std::optional<Length> radius{}, voxel{}, weld{};
     SignChoice sign = SignChoice::automatic;
     std::optional<Quality> quality{};
     MethodRequest method{};

@@ -1,11 +1,12 @@
 #include "inputs.h"
 #include "options.h"
+#include "weld.h"
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/detail/gaps.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/vdb/vdb_file.h"
 
@@ -23,7 +24,7 @@ constexpr const char* lattice_forms = "0.1 (scene units) or a .vdb file";
 struct VoxelizeVerb {
     CommonOptions common;
     Length radius = "10%";
-    std::optional<Length> voxel;
+    std::optional<Length> voxel, weld;
     std::string lattice; ///< a length or a grid; empty: none
     VoxelizeOptions voxelizing;
     std::string input, output;
@@ -43,7 +44,8 @@ std::optional<Lattice> lattice_of(const std::string& text) {
     return is_grid(text) ? read_lattice(text) : Lattice{lattice_length(text).value};
 }
 
-GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh, const std::optional<Lattice>& lattice) {
+GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh, std::span<const Triangle> triangles,
+                    const std::optional<Lattice>& lattice) {
     VoxelizeOptions options = verb.voxelizing;
     const double diagonal = frame_of(mesh.box()).diagonal;
     options.grid.lattice = lattice;
@@ -53,7 +55,7 @@ GridStack voxelized(const VoxelizeVerb& verb, const Mesh& mesh, const std::optio
     ProgressMeter meter(verb.common.progress_mode(), "voxelizing");
     options.progress = std::ref(meter);
     try {
-        return voxelize(mesh, triangulate(mesh).triangles, options);
+        return voxelize(mesh, triangles, options);
     } catch (const InputError& error) {
         throw InputError(verb.input + ": " + error.what());
     } catch (const LimitError& error) {
@@ -69,14 +71,17 @@ void run(const VoxelizeVerb& verb) {
     const std::optional<Lattice> lattice = lattice_of(verb.lattice);
     nlohmann::ordered_json seconds;
     Stopwatch watch;
-    const Mesh mesh = read_mesh(verb.input);
+    const Mesh mesh = read_welded(verb.input, verb.weld);
     seconds["read"] = watch.lap();
-    const GridStack stack = voxelized(verb, mesh, lattice);
+    const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    const GridStack stack = voxelized(verb, mesh, triangles, lattice);
     seconds["grid"] = watch.lap();
     write_grids(stack, verb.output);
     seconds["write"] = watch.lap();
 
     std::vector<std::string> warnings = mesh.warnings;
+    if (const Gaps gaps = find_gaps(mesh, triangles); gaps.closable > 0)
+        warnings.push_back(gaps.advice());
     warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
     print_warnings(warnings, verb.common);
     nlohmann::ordered_json levels = nlohmann::ordered_json::array();
@@ -128,6 +133,7 @@ void add_voxelize(CLI::App& program) {
         ->check(CLI::Range(3.0, 100.0).description(""))
         ->type_name("N")
         ->capture_default_str();
+    add_weld_option(*app, verb->weld);
     add_common_options(*app, verb->common);
     app->footer("Examples:\n"
                 "  alcove voxelize scan.ply -o scan.vdb --voxel 0.2% --radius 20%\n"

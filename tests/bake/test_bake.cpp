@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -240,6 +241,33 @@ TEST(Bake, ChecksItsOptions) {
     EXPECT_NE(message_of({.attributes = {}}).find("attributes"), std::string::npos);
     EXPECT_NE(message_of({.error = 0.1, .attributes = Channel::convexity}).find("ao"), std::string::npos);
     EXPECT_NE(message_of({.self = true, .keep_grid = true}).find("grid"), std::string::npos);
+}
+
+TEST(Bake, WarnsOfVerticesThatShareAPlaceOnASmoothSurface) {
+    const auto warning_of = [](const Mesh& mesh, const BakeOptions& options) {
+        for (const std::string& warning : bake(mesh, options).warnings)
+            if (warning.find("share places") != std::string::npos)
+                return warning;
+        return std::string();
+    };
+    const auto split = [](const Mesh& mesh) {
+        Mesh result;
+        for (const auto& [a, b, c] : triangulate(mesh).triangles) {
+            const auto next = static_cast<std::uint32_t>(result.positions.size());
+            result.positions.insert(result.positions.end(), {mesh.positions[a], mesh.positions[b], mesh.positions[c]});
+            result.add_face(std::array{next, next + 1, next + 2});
+        }
+        return result;
+    };
+    const BakeOptions options{.method = "classic", .pilot = false};
+    Mesh soup = split(sphere_mesh(2));
+    EXPECT_TRUE(warning_of(soup, options).starts_with(std::to_string(soup.vertex_count()) + " vertices share"));
+    EXPECT_EQ(warning_of(sphere_mesh(2), options), "");
+    EXPECT_EQ(warning_of(split(box_mesh(Vec3d(1.0), 2)), options), "") << "its faces are flat, its edges sharp";
+    for (const Vec3d& p : soup.positions)
+        soup.normals.push_back(Vec3(glm::normalize(p)));
+    EXPECT_EQ(warning_of(soup, options), "");
+    EXPECT_NE(warning_of(soup, {.method = "classic", .normals = NormalSource::area, .pilot = false}), "");
 }
 
 TEST(Bake, AddsWhatItBaked) {

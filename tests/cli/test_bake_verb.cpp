@@ -195,6 +195,56 @@ TEST_F(BakeVerb, ColoursOfAnEarlierBakeStayWithAWarning) {
     EXPECT_NE(read_mesh(folder_ / "work/b.ply").vertex_colors, before.vertex_colors);
 }
 
+TEST_F(BakeVerb, WeldJoinsVerticesButKeepsThemInTheOutput) {
+    // A closed tetrahedron whose faces have vertices of their own, 2e-5 apart.
+    const std::string soup = "12 4 0\n0 0 0\n0 1 0\n1 0 0\n0 0 1e-5\n1 0 0\n0 0 1\n1e-5 0 0\n0 0 1\n0 1 0\n1 0 0\n"
+                             "0 1 0\n0 0 1.00001\n3 0 1 2\n3 3 4 5\n3 6 7 8\n3 9 10 11\n";
+    write("soup.off", "OFF\n" + soup);
+    const Outcome apart = run({"bake", "soup.off", "-o", "a.ply", "--json"});
+    ASSERT_EQ(apart.code, done) << apart.err;
+    EXPECT_NE(apart.err.find("open edges would close if vertices within 2e-05 were joined"), std::string::npos)
+        << apart.err;
+    const Outcome joined =
+        run({"bake", "soup.off", "-o", "b.ply", "--weld", "2e-5", "--voxel", "2%", "--method", "traced", "--json"});
+    ASSERT_EQ(joined.code, done) << joined.err;
+    EXPECT_EQ(joined.json().at("sign"), "solid");
+    EXPECT_EQ(joined.err.find("would close"), std::string::npos) << joined.err;
+    const Mesh a = read_mesh(folder_ / "work/a.ply"), b = read_mesh(folder_ / "work/b.ply");
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.corners, b.corners);
+    expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "inf"}, usage, {"--weld", "finite"});
+    expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "2vx"}, usage, {"--weld", "0.2 (scene units)"});
+}
+
+TEST_F(BakeVerb, WeldMakesTheVerticesOfAnStl) {
+    const auto facet = [](const std::string& a, const std::string& b, const std::string& c) {
+        return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+               "\nendloop\nendfacet\n";
+    };
+    write("soup.stl", "solid\n" + facet("0 0 0", "0 1 0", "1 0 0") + facet("0 0 1e-5", "1 0 0", "0 0 1") +
+                          facet("1e-5 0 0", "0 0 1", "0 1 0") + facet("1 0 0", "0 1 0", "0 0 1.00001") + "endsolid\n");
+    const nlohmann::json apart = run({"bake", "soup.stl", "-o", "a.ply", "--json"}).json();
+    EXPECT_EQ(apart.at("vertices"), 7);
+    EXPECT_NE(apart.at("warnings").dump().find("add --weld 2e-05"), std::string::npos) << apart;
+    const nlohmann::json joined = run({"bake", "soup.stl", "-o", "b.ply", "--weld", "0.002%", "--json"}).json();
+    EXPECT_EQ(joined.at("vertices"), 4);
+    EXPECT_EQ(joined.at("warnings").dump().find("would close"), std::string::npos) << joined;
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"voxelize", "soup.stl", "-o", "a.vdb", "--voxel", "2%"},
+          {"render", "soup.stl", "-o", "a.png", "--size", "8x8"},
+          {"info", "soup.stl"}}) {
+        const Outcome told = run(arguments);
+        EXPECT_NE((told.out + told.err).find("add --weld 2e-05"), std::string::npos) << told.out << told.err;
+        std::vector<std::string> with_weld = arguments;
+        with_weld.insert(with_weld.end(), {"--weld", "2e-5"});
+        const Outcome mended = run(with_weld);
+        EXPECT_EQ(mended.code, done) << mended.err;
+        EXPECT_EQ((mended.out + mended.err).find("would close"), std::string::npos) << mended.out << mended.err;
+    }
+    EXPECT_EQ(run({"info", "soup.stl", "--weld", "2e-5", "--json"}).json().at("sign"), "solid");
+    EXPECT_EQ(run({"measure", "soup.stl", "--weld", "2e-5", "--methods", "exact:16"}).code, done);
+}
+
 TEST_F(BakeVerb, WritesObjWithColoursAndEveryOtherLineOfTheInput) {
     write("cube.obj", "# made by hand\nmtllib cube.mtl\no cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\n"
                       "f 1/1 2/1 3/1\n");

@@ -11,9 +11,10 @@ struct Verb {
 };
 
 const std::vector<Verb> verbs{
-    {"bake", {"--radius",         "--quality", "--error",      "--via",  "--strict",   "--method",     "--samples",
-              "--rays",           "--seed",    "--normals",    "--sign", "--voxel",    "--write-grid", "--color",
-              "--color-encoding", "--grid",    "--adaptivity", "--self", "--occluder", "--ground",     "--up"}},
+    {"bake",
+     {"--radius",     "--quality", "--error",    "--via",    "--strict",     "--method", "--samples",        "--rays",
+      "--seed",       "--normals", "--sign",     "--voxel",  "--write-grid", "--color",  "--color-encoding", "--grid",
+      "--adaptivity", "--self",    "--occluder", "--ground", "--up",         "--weld"}},
     {"voxelize", {"--voxel", "--band", "--radius"}},
     {"render",
      {"--size", "--method", "--radius", "--pass", "--eye", "--look-at", "--up", "--fov", "--pixel-samples",

@@ -1,5 +1,6 @@
 #include "alcove/bake/bake.h"
 
+#include "alcove/bake/detail/gap_warnings.h"
 #include "alcove/bake/detail/options.h"
 #include "alcove/bake/detail/parts.h"
 #include "alcove/bake/detail/provenance.h"
@@ -32,6 +33,10 @@ struct PreparedMesh {
 
 std::string named(const Mesh& mesh, const std::string& message) {
     return mesh.name.empty() || message.starts_with(mesh.name) ? message : mesh.name + ": " + message;
+}
+
+bool uses_file_normals(const Mesh& mesh, NormalSource normals) {
+    return !mesh.normals.empty() && (normals == NormalSource::automatic || normals == NormalSource::file);
 }
 
 /// Newell's method (Tampieri 1992), which also works for non-planar polygons.
@@ -138,6 +143,14 @@ void warn_of_flipped_normals(const PreparedMesh& prepared, std::span<const Surfe
                                        100.0 * static_cast<double>(against) / static_cast<double>(compared)));
 }
 
+void warn_of_normals(const PreparedMesh& prepared, std::span<const Surfel> vertices, bool of_file,
+                     std::vector<std::string>& warnings) {
+    for (std::string& warning : gap_warnings(prepared.mesh, prepared.triangles, vertices, of_file))
+        warnings.push_back(std::move(warning));
+    if (of_file)
+        warn_of_flipped_normals(prepared, vertices, warnings);
+}
+
 void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,
                              std::vector<std::string>& warnings) {
     const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
@@ -218,8 +231,8 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
                          prepared.voxelizing,
                          prepared.grid ? &*prepared.grid : nullptr};
         whole.is_own_face = source.is_own_face;
-        if (source.of_vertices && !mesh.normals.empty())
-            warn_of_flipped_normals(prepared, whole.surfels, warnings);
+        if (source.of_vertices)
+            warn_of_normals(prepared, whole.surfels, uses_file_normals(mesh, options.normals), warnings);
         warn_of_missing_normals(whole.surfels, source.name, warnings);
         warn_of_outliers(prepared, options, warnings);
         warn_of_offset(prepared, warnings);
@@ -267,7 +280,7 @@ void warn_of_earlier_colors(Mesh& mesh, const std::vector<float>& ao) {
         colors == grey_colors(ao, ColorEncoding::raw))
         return;
     mesh.warnings.emplace_back(
-        "the vertex colours are kept but are not this ao: an earlier bake made them; add --color "
+        "the vertex colours are kept but are not this ao: an earlier bake may have made them; add --color "
         "ao to replace them");
 }
 

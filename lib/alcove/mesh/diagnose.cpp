@@ -3,8 +3,10 @@
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/detail/edge_table.h"
+#include "alcove/mesh/detail/gaps.h"
 #include "alcove/mesh/detail/weld.h"
 #include "alcove/mesh/normals.h"
+#include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
 
@@ -242,6 +244,9 @@ Diagnosis diagnose(const Mesh& mesh) {
     examine_fans(mesh, surface, result);
     result.degenerate_faces = surface.faces.collapsed + faces_without_area(mesh, surface.faces);
     result.duplicate_faces = count_duplicates(surface.faces);
+    const Gaps gaps = find_gaps(mesh, triangulate(mesh).triangles);
+    result.closable_edges = gaps.closable;
+    result.closing_distance = gaps.distance;
     return result;
 }
 
@@ -278,7 +283,9 @@ std::vector<std::string> describe(const Diagnosis& d) {
         "surfaces touch at a point; normals average both");
     say(d.seam_edges(), "seam edge", "seam edges",
         "closed if coincident vertices are merged; face normals are discontinuous there; provide "
-        "normals or merge the vertices");
+        "normals, or join the vertices with --weld 0.0001%");
+    if (const Gaps gaps{{}, d.closable_edges, d.closing_distance}; d.closable_edges > 0)
+        lines.push_back(gaps.advice());
     say(d.degenerate_faces, "face without area", "faces without area", "they are ignored");
     say(d.duplicate_faces, "duplicate face", "duplicate faces", "remove them: they may swap inside and outside");
     say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "they have no normal and get ao = 1");

@@ -43,6 +43,8 @@ struct Diagnosis : Closedness {
     std::size_t coincident_vertices = 0;   ///< at exactly the position of an earlier vertex
     std::size_t unreferenced_vertices = 0; ///< in no face
     std::size_t non_finite_vertices = 0;
+    std::size_t closable_edges = 0; ///< open edges that close when vertices within `closing_distance` are joined
+    double closing_distance = 0.0;  ///< scene units, at most 1e-4 of the diagonal
 
     /// Boundary edges that close when coincident vertices are joined.
     std::size_t seam_edges() const { return boundary_edges > open_edges ? boundary_edges - open_edges : 0; }

@@ -53,6 +53,7 @@ struct MeshShape {
     bool painted = false;    ///< the brightness of its vertex colours multiplies the ao
     /// Whether its own colours (own_colors()) replace that of the material. If unset, they do not, and a warning says so.
     std::optional<bool> own_colors{};
+    std::optional<Length> weld{}; ///< joins vertices within it; a percentage is of the mesh's own diagonal
 };
 /// A level set in a .vdb file.
 struct GridShape {

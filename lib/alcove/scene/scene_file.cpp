@@ -167,6 +167,9 @@ class ObjectReader {
                 mesh.own_colors = *colors == 1;
             else if (mesh.painted)
                 mesh.own_colors = false;
+            mesh.weld = length(table, "weld");
+            if (mesh.weld && (mesh.weld->unit == Length::Unit::voxels || std::isinf(mesh.weld->value)))
+                table.fail("weld", "takes a finite length, and not in vx: write 0.2 (scene units) or \"0.001%\"");
             return mesh;
         }
         case Kind::vdb: {

@@ -2,6 +2,7 @@
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/parallel.h"
+#include "alcove/mesh/mesh.h"
 
 #include <bit>
 
@@ -52,6 +53,39 @@ std::vector<std::uint32_t> weld(std::span<const Vec3d> positions) {
             table[at] = {part, v};
         else
             first[v] = table[at].vertex;
+    }
+    return first;
+}
+
+std::vector<std::uint32_t> weld(std::span<const Vec3d> positions, double distance) {
+    Box box;
+    for (const Vec3d& p : positions)
+        if (is_finite(p))
+            box.add(p);
+    constexpr std::uint32_t none = UINT32_MAX;
+    const std::size_t mask = std::bit_ceil(positions.size() + 1) - 1;
+    std::vector<std::uint32_t> newest(mask + 1, none), older(positions.size(), none); // lists of the cells with a hash
+    std::vector<std::uint32_t> first(positions.size());
+    for (std::uint32_t v = 0; v < positions.size(); ++v) {
+        first[v] = v;
+        if (!is_finite(positions[v]))
+            continue;
+        // The ball around a vertex reaches 2 × 2 × 2 cells of twice its radius.
+        const Vec3d place = (positions[v] - box.min) / (2.0 * distance), low = glm::floor(place - 0.5);
+        double nearest = distance;
+        for (int corner = 0; corner < 8; ++corner)
+            for (std::uint32_t u = newest[hash(low + Vec3d(corner & 1, corner >> 1 & 1, corner >> 2)) & mask];
+                 u != none; u = older[u])
+                if (const double apart = glm::distance(positions[u], positions[v]);
+                    apart < nearest || (apart == nearest && (first[v] == v || u < first[v]))) {
+                    nearest = apart;
+                    first[v] = u;
+                }
+        if (first[v] == v) {
+            std::uint32_t& list = newest[hash(glm::floor(place)) & mask];
+            older[v] = list;
+            list = v;
+        }
     }
     return first;
 }

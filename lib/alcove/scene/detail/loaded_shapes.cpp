@@ -2,6 +2,8 @@
 
 #include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
+#include "alcove/mesh/detail/gaps.h"
+#include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/render/renderer.h"
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace alcove {
@@ -56,11 +59,15 @@ class Loader {
 
   private:
     void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
-        std::shared_ptr<LoadedMesh>& file = meshes_[shape.file.lexically_normal()];
+        std::shared_ptr<LoadedMesh>& file = meshes_[key_of(shape)];
         if (!file) {
             file = std::make_shared<LoadedMesh>(LoadedMesh{read_mesh(shape.file), {}});
+            if (shape.weld)
+                file->mesh = join_vertices(file->mesh, *shape.weld).mesh;
             file->triangles = triangulate(file->mesh).triangles;
             loaded.warnings = file->mesh.warnings;
+            if (const Gaps gaps = find_gaps(file->mesh, file->triangles); gaps.closable > 0)
+                loaded.warnings.push_back(gaps.advice());
             memory_.add(shape.file.string(), bytes_of(*file));
             memory_.check();
             if (!shape.own_colors && may_have_colors(file->mesh))
@@ -117,8 +124,15 @@ class Loader {
         GridStack stack;
         Box box; // of its surface
     };
+    /// The file and the length of `weld`.
+    using MeshKey = std::tuple<std::filesystem::path, double, Length::Unit>;
+    static MeshKey key_of(const MeshShape& shape) {
+        const Length weld = shape.weld.value_or(Length());
+        return {shape.file.lexically_normal(), weld.value, weld.unit};
+    }
+
     MemoryEstimate& memory_;
-    std::map<std::filesystem::path, std::shared_ptr<LoadedMesh>> meshes_;
+    std::map<MeshKey, std::shared_ptr<LoadedMesh>> meshes_;
     std::map<std::pair<std::filesystem::path, std::vector<std::string>>, LoadedGrid> grids_; // by file and names
 };
 

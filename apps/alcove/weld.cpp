@@ -1,0 +1,45 @@
+#include "weld.h"
+
+#include "options.h"
+
+#include "alcove/mesh/read.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+
+namespace alcove::cli {
+namespace {
+
+Length parse_weld(const std::string& text) {
+    const Length length = length_without_vx(text, "0.2 (scene units) or 0.001% (of the diagonal)");
+    if (std::isinf(length.value))
+        throw InputError("takes a finite length, not 'inf': write 0.2 (scene units) or 0.001%");
+    return length;
+}
+
+}
+
+void add_weld_option(CLI::App& verb, std::optional<Length>& weld) {
+    verb.add_option_function<std::string>(
+            "--weld", [&weld](const std::string& text) { weld = parse_weld(text); },
+            "Join vertices within this distance, 0.2 (scene units) or 0.001% (of the diagonal), before anything else: "
+            "closes what an exporter has rounded apart, and smooths seams")
+        ->check(parsable(parse_weld))
+        ->type_name("LEN");
+}
+
+JoinedMesh welded(const Mesh& mesh, const Length& weld) {
+    return as_usage([&] { return join_vertices(mesh, weld); });
+}
+
+Mesh read_welded(const std::string& file, const std::optional<Length>& weld) {
+    Mesh mesh = read_mesh(file);
+    if (!weld)
+        return mesh;
+    Mesh joined = welded(mesh, *weld).mesh;
+    joined.source = mesh.source;
+    return joined;
+}
+
+}

@@ -1,0 +1,25 @@
+/// The option --weld.
+#pragma once
+
+#include "alcove/base/types.h"
+#include "alcove/mesh/detail/join.h"
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace alcove::cli {
+
+/// Adds --weld (empty: not given).
+void add_weld_option(CLI::App& verb, std::optional<Length>& weld);
+
+/// join_vertices(). \throw UsageError for a length that makes no sense with the mesh.
+JoinedMesh welded(const Mesh& mesh, const Length& weld);
+
+/// read_mesh(), with its vertices joined if `weld` is set. Not to be written: `source` is still that of the file.
+Mesh read_welded(const std::string& file, const std::optional<Length>& weld);
+
+}

@@ -1,0 +1,18 @@
+/// Joins vertices that an exporter's rounding has moved apart.
+#pragma once
+
+#include "alcove/mesh/mesh.h"
+
+namespace alcove {
+
+struct JoinedMesh {
+    Mesh mesh;                            ///< of the same faces; without `source` and `attributes`
+    std::vector<std::uint32_t> vertex_of; ///< for each vertex of the original, its vertex in `mesh`
+};
+
+/// Joins vertices within a finite length, not in voxels: each takes the place of the first of them. Without normals they
+/// become one vertex, in the order of the first ones. With normals they stay separate at that place, as their normals may
+/// differ. Warns of faces that lose their corners. \throw InputError for a length that makes no sense with the mesh.
+JoinedMesh join_vertices(const Mesh& mesh, const Length& within);
+
+}
