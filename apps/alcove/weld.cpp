@@ -30,7 +30,11 @@ void add_weld_option(CLI::App& verb, std::optional<Length>& weld) {
 }
 
 JoinedMesh welded(const Mesh& mesh, const Length& weld) {
-    return as_usage([&] { return join_vertices(mesh, weld); });
+    try {
+        return join_vertices(mesh, weld);
+    } catch (const InputError& error) {
+        throw UsageError(mesh.name + ": --weld: " + error.what());
+    }
 }
 
 Mesh read_welded(const std::string& file, const std::optional<Length>& weld) {

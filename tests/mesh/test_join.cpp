@@ -111,6 +111,7 @@ TEST(Join, WarnsOfFacesThatLoseTheirCorners) {
     ASSERT_EQ(joined.mesh.warnings.size(), 1u);
     EXPECT_TRUE(joined.mesh.warnings[0].starts_with("6 faces have fewer than three corners once vertices are joined"));
     EXPECT_EQ(joined.mesh.face_count(), 12u);
+    EXPECT_THROW(join_vertices(cube(), Length(2.0)), InputError);
 }
 
 }

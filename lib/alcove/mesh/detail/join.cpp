@@ -27,7 +27,10 @@ JoinedMesh join_vertices(const Mesh& mesh, const Length& within) {
     JoinedMesh joined{mesh, std::vector<std::uint32_t>(first.size())};
     joined.mesh.source.reset();
     joined.mesh.attributes.clear();
-    const std::size_t lost = sound_faces(mesh, first).collapsed - sound_faces(mesh, weld(mesh.positions)).collapsed;
+    const SoundFaces before = sound_faces(mesh, weld(mesh.positions)), after = sound_faces(mesh, first);
+    if (before.count() > 0 && after.count() == 0)
+        throw InputError("joins the corners of every face: use a smaller --weld");
+    const std::size_t lost = after.collapsed - before.collapsed;
     if (lost > 0)
         joined.mesh.warnings.push_back(counted(lost, "face has", "faces have") +
                                        " fewer than three corners once vertices are joined; ignored: join less with a "
