@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -22,6 +23,8 @@ namespace alcove::cli {
 namespace {
 
 std::array<char, 200> time_limit_message{}; // formatted in advance, as a signal handler must not do so
+
+std::atomic<bool> ends{false}; // the last line is being printed, or was
 
 using Clock = std::chrono::steady_clock;
 std::optional<std::pair<Clock::time_point, double>> time_limit; // start and seconds
@@ -44,17 +47,20 @@ extern "C" void on_interrupt(int signal) {
     (void)::raise(signal);
 }
 
-/// Prints a message and exits without running destructors or allocating memory.
-[[noreturn]] void exit_with(const char* message) {
+/// Prints a message, unless the last line is printed already, and exits without running destructors or allocating
+/// memory.
+[[noreturn]] void exit_with(const char* message, bool is_last_line) {
     remove_unfinished_files();
-    for (const char* part : {bar_is_shown ? clear_bar.data() : "", "alcove: ", message, "\n"})
-        if (::write(STDERR_FILENO, part, std::strlen(part)) < 0)
-            break;
+    if (is_last_line)
+        for (const char* part : {bar_is_shown ? clear_bar.data() : "", "alcove: ", message, "\n"})
+            if (::write(STDERR_FILENO, part, std::strlen(part)) < 0)
+                break;
     ::_exit(1);
 }
 
 extern "C" void on_alarm(int) {
-    exit_with(time_limit_message.data());
+    if (!ends.exchange(true)) // else the program is about to end with its own exit code
+        exit_with(time_limit_message.data(), true);
 }
 
 [[noreturn]] void on_terminate() {
@@ -62,11 +68,11 @@ extern "C" void on_alarm(int) {
         if (const std::exception_ptr thrown = std::current_exception())
             std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-        exit_with(out_of_memory);
+        exit_with(out_of_memory, !ends.exchange(true));
     } catch (...) {
-        exit_with("a library failed with an exception that cannot be handled");
+        exit_with("a library failed with an exception that cannot be handled", !ends.exchange(true));
     }
-    exit_with("terminated for an unknown reason");
+    exit_with("terminated for an unknown reason", !ends.exchange(true));
 }
 
 }
@@ -80,6 +86,11 @@ void end_cleanly() {
     }
     handle(SIGXFSZ, SIG_IGN);
     std::set_terminate(on_terminate);
+}
+
+void begin_to_end() {
+    while (ends.exchange(true))
+        ::pause();
 }
 
 void limit_time(double seconds) {

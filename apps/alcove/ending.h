@@ -12,6 +12,10 @@ inline constexpr const char* out_of_memory = "out of memory: use a coarser --vox
 /// A file that exceeds the size limit is an error like a full disk.
 void end_cleanly();
 
+/// Call before the program prints its last line, an error or a result: no time limit or failure adds a line after it.
+/// Waits for ever if another thread is already ending the program.
+void begin_to_end();
+
 /// Ends the program after this many seconds, > 0, with one line and exit code 1, and removes unfinished files. The
 /// last call wins.
 void limit_time(double seconds);

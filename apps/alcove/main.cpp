@@ -18,6 +18,7 @@ enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
 
 /// Prints a message in one line, even if it contains line breaks.
 int complain(ExitCode code, const std::string& message) {
+    alcove::cli::begin_to_end();
     std::fputs(fmt::format("alcove: {}\n", alcove::in_one_line(message)).c_str(), stderr);
     return code;
 }
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
         program.parse(argc, argv);
         if (std::fflush(stdout) != 0)
             return complain(failure, "stdout: cannot be written; is the disk full?");
+        alcove::cli::begin_to_end();
         return done;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
