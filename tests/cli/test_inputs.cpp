@@ -61,14 +61,22 @@ TEST_F(Inputs, MissingOnesAndFoldersAreRefused) {
         expect_refusal({"info", name}, bad_input, {name});
 }
 
-TEST_F(Inputs, AMeshWithoutAreaIsRefusedByName) {
-    write("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
-    expect_refusal({"bake", "flat.off", "-o", "b.ply"}, bad_input, {"flat.off", "area"});
+TEST_F(Inputs, AMeshWithoutAreaIsRefusedByEveryMethod) {
+    write("flat.off", "OFF\n4 2 0\n0 0 0\n0.1 0.1 0.1\n0.3 0.3 0.3\n0.7 0.7 0.7\n3 0 1 2\n3 1 2 3\n");
+    write("point.off", "OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n");
+    for (const std::string file : {"flat.off", "point.off"}) {
+        for (const char* method : {"exact", "traced", "classic", "guided", "calibrated"})
+            expect_refusal({"bake", file, "-o", "out.ply", "--method", method}, bad_input, {file, "area"});
+        for (const char* via : {"grid", "auto", "mesh"})
+            expect_refusal({"bake", file, "-o", "out.ply", "--via", via}, bad_input, {file, "area"});
+        expect_refusal({"bake", file, "-o", "out.ply", "--self"}, bad_input, {file, "area"});
+    }
 }
 
 TEST_F(Inputs, ATooFineVoxelIsRefusedWithOneThatFits) {
     write("cube.off", cube_off);
-    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--voxel", "1e-9"}, bad_input, {"cube.off", "GB", "--voxel"});
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--voxel", "1e-9"}, bad_input,
+                   {"cube.off", "GB", "--voxel", "--max-memory"});
 }
 
 TEST_F(Inputs, ALineBreakInANameStaysOneLine) {

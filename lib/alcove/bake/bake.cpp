@@ -89,8 +89,21 @@ void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<s
     prepared.grid = extend_levels(std::move(stack), prepared.radius, inside);
 }
 
+/// Whether a triangle has an area in unit space, where grids and rays are.
+bool has_area(const PreparedMesh& prepared) {
+    const auto unit = [&](std::uint32_t v) {
+        return (prepared.mesh.positions[v] - prepared.frame.center) / prepared.frame.diagonal;
+    };
+    return std::any_of(prepared.triangles.begin(), prepared.triangles.end(), [&](const Triangle& t) {
+        const Vec3d origin = unit(t[0]), a = unit(t[1]) - origin, b = unit(t[2]) - origin;
+        return glm::length(glm::cross(a, b)) > flat_sine * glm::length(a) * glm::length(b);
+    });
+}
+
 PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<std::string>& warnings) {
     PreparedMesh prepared{mesh, triangulate(mesh).triangles, frame_of(mesh.box()), {}, 0.0f};
+    if (!has_area(prepared)) // voxelize() finds out too, but rays do not
+        throw InputError("the mesh has no face with nonzero area: there is no surface to occlude anything");
     prepared.voxelizing = voxelizing_of(options, prepared.frame);
     prepared.radius = radius_of(options, prepared.frame, prepared.voxelizing);
     if (options.grid)

@@ -133,8 +133,8 @@ void check(const BakeOptions& options);
 /// pilot.
 /// \throw InputError as check(), or if the mesh cannot be baked: no face has an area, or NormalSource::file without
 /// normals, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
-/// exceed the memory limit, MemoryError if the system has too little. TimeLimitError, see BakeOptions::time_limit. Any exception of
-/// BakeOptions::progress.
+/// exceed half of the memory, MemoryError if the system has too little. TimeLimitError, see BakeOptions::time_limit. Any
+/// exception of BakeOptions::progress.
 Baked bake(const Mesh& mesh, const BakeOptions& options = {});
 
 inline constexpr std::uint32_t no_face = ~std::uint32_t{0};

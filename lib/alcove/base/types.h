@@ -112,12 +112,12 @@ struct Length {
 // The exceptions thrown at the boundaries of the library. Each message is one line that names the file, the place in it
 // and the fix.
 
-/// The input is invalid: a damaged file, a mesh without faces, a grid of another type.
+/// The input is invalid: a file that cannot be read or is damaged, a mesh without faces, a grid of another type.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A file could not be opened, read or written, though its contents are not at fault.
+/// A file could not be written.
 struct IoError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -132,7 +132,7 @@ struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The request is valid but too large: it exceeds the memory or the index range.
+/// The request is valid but too large: it exceeds the limits of memory and reading, or the index range.
 struct LimitError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
