@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 bool is_folder(const std::string& output) {
     const bool is_mesh = extension(output) == ".ply" || extension(output) == ".obj";
-    return output.ends_with('/') || (!is_mesh && fs::is_directory(output));
+    std::error_code missing;
+    return output.ends_with('/') || (!is_mesh && fs::is_directory(output, missing));
 }
 
 bool same_file(const std::string& a, const std::string& b) {

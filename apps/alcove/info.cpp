@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -36,7 +37,9 @@ Kind kind_of(const std::string& file) {
     if (is_grid(file)) // not opened here, as it may be a pipe
         return Kind::grid;
     std::array<char, 8> bytes{};
-    std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
+    std::error_code unknown;
+    if (std::filesystem::is_regular_file(file, unknown)) // a pipe cannot be read twice
+        std::ifstream(file, std::ios::binary).read(bytes.data(), bytes.size());
     const std::string_view begin(bytes.data(), bytes.size());
     if (begin == " BDV\0\0\0\0"sv)
         return Kind::grid;

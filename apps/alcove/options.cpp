@@ -3,6 +3,7 @@
 #include "ending.h"
 
 #include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
 
 #include <fmt/format.h>
@@ -40,6 +41,36 @@ Vec3d parse_triple(const std::string& text, Triple kind) {
     if (kind == Triple::direction && v == Vec3d(0.0))
         throw InputError("takes a direction, not 0,0,0: write 0,1,0 or 0,0,1");
     return v;
+}
+
+/// A number of bytes, such as 500MB or 1.5GiB.
+double parse_size(const std::string& text) {
+    static const std::map<std::string, double> units{
+        {"", 1.0},   {"b", 1.0},  {"k", 1e3},   {"kb", 1e3},     {"m", 1e6},      {"mb", 1e6},     {"g", 1e9},
+        {"gb", 1e9}, {"t", 1e12}, {"tb", 1e12}, {"kib", 1024.0}, {"mib", 0x1p20}, {"gib", 0x1p30}, {"tib", 0x1p40}};
+    double number = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    std::string unit(rest, end);
+    std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+    const auto known = units.find(unit);
+    if (error != std::errc() || known == units.end() || !(number * known->second >= 1.0) || !std::isfinite(number))
+        throw InputError(fmt::format("takes a size, not '{}': write 2GB, 500MB or 1.5GiB", text));
+    return number * known->second;
+}
+
+/// Adds --max-memory and --max-read.
+void add_limits(CLI::App& verb) {
+    const auto add = [&](const char* name, void (*limit)(double), const char* description) {
+        verb.add_option_function<std::string>(
+                name, [limit](const std::string& text) { limit(parse_size(text)); }, description)
+            ->check(parsable(parse_size))
+            ->type_name("SIZE");
+    };
+    add("--max-memory", limit_memory,
+        "Memory for level sets and images: 2GB, 500MB, 1.5GiB. Default: half of that of the machine");
+    add("--max-read", limit_reading,
+        "Largest file to read; of a pipe, at most this much is read. Default: half of --max-memory, at most 4GB");
 }
 
 std::pair<std::string, double> parse_setting(const std::string& setting) {
@@ -103,6 +134,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
                 throw InputError(fmt::format("takes seconds, above 0 and up to 1e9, not '{}'", text));
         }))
         ->option_text("SECONDS");
+    add_limits(verb);
     verb.add_flag("--quiet", options.quiet, "No progress, no warnings");
     verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
 }

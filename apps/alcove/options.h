@@ -76,7 +76,7 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
 };
 
-/// Adds --threads, --progress, --time-limit, --quiet and --version.
+/// Adds --threads, --progress, --time-limit, --max-memory, --max-read, --quiet and --version.
 void add_run_options(CLI::App& verb, CommonOptions& options);
 
 /// Adds the run options and --json.
@@ -114,7 +114,7 @@ std::string method_names();
 /// The extension of a file name in lower case, with the dot.
 std::string extension(const std::string& file);
 
-/// \throw UsageError unless the name ends in .vdb, IoError if the file cannot be written.
+/// \throw UsageError unless the name ends in .vdb; as AtomicFile if the file cannot be written.
 void check_grid_output(const std::string& file);
 
 /// Prints a line to stdout. Like messages on stderr, it does not show control characters of names.

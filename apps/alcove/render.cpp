@@ -40,9 +40,10 @@ std::vector<Frame> frames_to_draw(const Options& options, const ImageOutput& out
     if (!options.frames)
         return {{0.0, options.image.file}};
     std::vector<Frame> left;
+    std::error_code unknown;
     for (int i = 0; i < *options.frames; ++i) {
         const std::string file = output.frame_file(i + 1, *options.frames);
-        if (!std::filesystem::exists(file))
+        if (!std::filesystem::exists(file, unknown))
             left.push_back({360.0 * i / *options.frames, file});
     }
     return left;

@@ -2,6 +2,8 @@
 
 #include "weld.h"
 
+#include "alcove/base/detail/limits.h"
+#include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/render/detail/image_method.h"
 #include "alcove/render/image.h"
@@ -14,8 +16,6 @@
 
 namespace alcove::cli {
 namespace {
-
-constexpr double memory_limit = 4e9;
 
 ImageSize parse_size(const std::string& text) {
     const char* const end = text.data() + text.size();
@@ -38,10 +38,10 @@ void check_size(const Scene& scene, PassSet passes) {
     const double image_bytes = Image::bytes_per_pixel(passes);
     const double bytes_per_pixel = image_bytes + std::max(image_bytes, method ? method->bytes_per_pixel : 0.0);
     const double bytes = bytes_per_pixel * size.width * size.height;
-    if (bytes > memory_limit || std::max(size.width, size.height) > longest_side)
-        throw UsageError(fmt::format("an image of {}x{} pixels takes about {:.3g} GB; the limits are {:.0f} GB and {} "
-                                     "pixels per side: use a smaller --size",
-                                     size.width, size.height, bytes / 1e9, memory_limit / 1e9, longest_side));
+    if (bytes > memory_limit() || std::max(size.width, size.height) > longest_side)
+        throw UsageError(fmt::format("an image of {}x{} pixels takes about {:.3g} GB; the limits are {} and {} "
+                                     "pixels per side: use a smaller --size, or raise --max-memory",
+                                     size.width, size.height, bytes / 1e9, bytes_text(memory_limit()), longest_side));
 }
 
 void aim(const SceneRequest& request, CameraOptions& camera) {

@@ -220,10 +220,11 @@ TEST_F(RenderVerb, WrongScenesAreNamedWithTheMend) {
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--voxel", "1%"}, usage, {"--voxel", "cube.toml"});
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--size", "4x"}, usage, {"--size", "1280x720"});
     // The memory of the image method counts; the check comes before any file is read.
-    std::vector<std::string> large{"render", "none.off", "-o", "a.png", "--size", "14000x8000", "--method", "classic"};
+    std::vector<std::string> large{"render",     "none.off",     "-o",  "a.png",    "--size",
+                                   "14000x8000", "--max-memory", "4GB", "--method", "classic"};
     expect_refusal(large, bad_input, {"none.off"});
     large.back() = "screen_space";
-    expect_refusal(large, usage, {"14000x8000", "6.27 GB", "smaller --size"});
+    expect_refusal(large, usage, {"14000x8000", "6.27 GB", "4 GB", "smaller --size", "--max-memory"});
     expect_refusal({"render", "cube.toml", "-o", "a.png", "--pixel-samples", "0"}, usage, {"--pixel-samples"});
     const std::vector<std::string> left = files();
     EXPECT_EQ(std::count(left.begin(), left.end(), "a.png"), 0);

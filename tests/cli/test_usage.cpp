@@ -48,7 +48,8 @@ TEST_F(Program, HelpNamesEveryVerbAndOptionAndGivesExamples) {
         EXPECT_NE(help.out.find("alcove " + verb.name + " "), std::string::npos);
         EXPECT_NE(help.out.find("xample"), std::string::npos) << help.out;
         std::vector<std::string> options = verb.options;
-        options.insert(options.end(), {"--threads", "--json", "--progress", "--quiet", "--help", "--version"});
+        options.insert(options.end(), {"--threads", "--json", "--progress", "--time-limit", "--max-memory",
+                                       "--max-read", "--quiet", "--help", "--version"});
         for (const std::string& option : options)
             EXPECT_NE(help.out.find(option + " "), std::string::npos) << option << " is not in " << help.out;
     }

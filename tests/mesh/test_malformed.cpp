@@ -293,6 +293,7 @@ TEST_F(Unreadable, AFolderAndAMissingFileAreNamed) {
         EXPECT_NE(std::string(error.what()).find("folder.stl: is a folder"), std::string::npos);
     }
     EXPECT_THROW(read_mesh("/dev/zero"), InputError);
+    EXPECT_THROW(read_mesh("/proc/self/mem"), InputError); // it cannot be read, though it is a regular file
     try {
         read_mesh(path("none.ply"));
         FAIL();

@@ -5,6 +5,7 @@
 #include "alcove/mesh/mesh.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -27,8 +28,9 @@ struct GridOptions {
     /// Where triangles are far smaller than voxels, voxelize a surface with fewer triangles: usually a few
     /// hundredths of a voxel away from the original, √3 voxels at most.
     bool cluster = false;
-    /// Limit of the memory for the grids and for building them, bytes.
-    double memory_limit = 4.0 * (1u << 30);
+    /// Limit of the memory for the grids and for building them, bytes. The limit of the process, by default half of the
+    /// memory of the machine, applies too.
+    double memory_limit = std::numeric_limits<double>::infinity();
 };
 
 enum class SignChoice {

@@ -19,7 +19,7 @@ enum class ColorEncoding {
 std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding = ColorEncoding::srgb);
 
 /// Whether write_mesh() knows the extension of `file`. Call it before a long computation to find out early.
-/// \throw IoError if nothing can be written there.
+/// \throw IoError if nothing can be written there, InputError if it is a pipe, a device or a link without a file.
 bool can_write_mesh(const std::filesystem::path& file);
 
 /// Writes to a temporary file in the same folder and renames it, so that a failure leaves the old file unchanged.

@@ -1,3 +1,4 @@
+#include "alcove/base/detail/input_file.h"
 #include "alcove/base/types.h"
 #include "alcove/render/image.h"
 
@@ -10,6 +11,7 @@
 namespace alcove {
 
 ImageSummary summarize_image(const std::filesystem::path& file) {
+    check_input_file(file);
     ImageSummary summary;
     png_image png{};
     png.version = PNG_IMAGE_VERSION;

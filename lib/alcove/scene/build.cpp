@@ -1,6 +1,7 @@
 #include "alcove/render/detail/image_method.h"
 #include "alcove/scene/scene.h"
 
+#include "alcove/base/detail/limits.h"
 #include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/scene/detail/shape_fields.h"
@@ -16,7 +17,6 @@
 namespace alcove {
 namespace {
 
-constexpr double memory_limit = 4e9; // bytes
 // Measured: per triangle that rays hit, with its corners, their normals and its share of the BVH.
 constexpr double bytes_per_ray_triangle = 300.0;
 
@@ -167,7 +167,7 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
     if (scene.objects.size() > max_objects)
         throw InputError(fmt::format("the scene has {} objects, but at most {} are possible: combine some into unions",
                                      scene.objects.size(), max_objects));
-    MemoryEstimate memory(memory_limit);
+    MemoryEstimate memory(memory_limit());
     std::vector<LoadedShape> shapes = load_shapes(scene, memory);
     const Box box = box_around(shapes);
     const Frame frame = frame_of(box);

@@ -130,7 +130,7 @@ Scene scene_of(const std::filesystem::path& file);
 
 /// Paths in the scene are relative to its folder; the files are not opened. \throw InputError, with file, line and fix,
 /// for invalid TOML, an unknown key (naming the closest known one), a value of the wrong type or out of range, and if
-/// the file cannot be opened; IoError if it cannot be read.
+/// the file cannot be read; LimitError as read_mesh().
 Scene read_scene(const std::filesystem::path& file);
 
 struct BuiltScene {

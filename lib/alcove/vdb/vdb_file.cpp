@@ -1,6 +1,7 @@
 #include "alcove/vdb/vdb_file.h"
 
 #include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/input_file.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
@@ -190,7 +191,7 @@ struct Chosen {
 
 Chosen read_chosen(const std::filesystem::path& file, const GridSelection& selection,
                    std::vector<std::string>& warnings) {
-    check_openable(file);
+    check_input_file(file);
     const VdbStructure structure = check_vdb_structure(file);
     const std::vector<bool> wanted = choose(structure, selection.names, file, warnings);
     Chosen chosen;
@@ -272,7 +273,7 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
 }
 
 std::vector<StoredGrid> list_grids(const std::filesystem::path& file) {
-    check_openable(file);
+    check_input_file(file);
     std::vector<StoredGrid> grids;
     for (GridEntry& entry : check_vdb_structure(file).grids)
         grids.push_back(std::move(entry.grid));

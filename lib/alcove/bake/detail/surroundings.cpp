@@ -1,5 +1,6 @@
 #include "alcove/bake/detail/surroundings.h"
 
+#include "alcove/base/detail/limits.h"
 #include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/detail/plan.h"
@@ -14,7 +15,7 @@
 namespace alcove {
 namespace {
 
-constexpr double memory_limit = 1e9; // of all occluders together
+constexpr double share_of_memory = 0.25; // for the grids of all occluders together
 
 // Fractions of the diagonal of an occluder.
 constexpr float smallest_voxel = 1.0f / 512.0f, largest_voxel = 1.0f / 32.0f;
@@ -81,7 +82,7 @@ GridStack Surroundings::voxelize(const Occluder& occluder, double voxel) const {
 }
 
 double Surroundings::memory_each() const {
-    return memory_limit / static_cast<double>(occluders_.size());
+    return share_of_memory * memory_limit() / static_cast<double>(occluders_.size());
 }
 
 bool Surroundings::fit() const {

@@ -1,5 +1,6 @@
 #include "alcove/base/detail/atomic_file.h"
 
+#include "alcove/base/detail/file_kind.h"
 #include "alcove/base/types.h"
 
 #include <fcntl.h>
@@ -50,21 +51,52 @@ void forget(int slot) {
     throw IoError(target.string() + ": " + what + ": " + std::strerror(reason));
 }
 
+/// Refuses a target that is not a regular file, or a link without a file. \return whether it exists.
+bool check_target(const std::filesystem::path& target, struct stat& old) {
+    const bool exists = ::stat(target.c_str(), &old) == 0;
+    if (!exists && errno == ELOOP)
+        throw InputError(target.string() + ": is a link that leads back to itself; delete it, or name another file");
+    std::error_code unresolved;
+    if (!exists && std::filesystem::is_symlink(std::filesystem::symlink_status(target, unresolved)))
+        throw InputError(target.string() + ": is a link to " +
+                         std::filesystem::read_symlink(target, unresolved).string() +
+                         ", which does not exist; delete the link, or name another file");
+    if (exists && S_ISDIR(old.st_mode))
+        throw IoError(target.string() + ": is a folder; name a file to write");
+    if (const char* kind = exists ? special_kind(old) : nullptr)
+        throw InputError(target.string() + ": is " + kind + ", not a file; name a file to write");
+    if (exists && ::access(target.c_str(), W_OK) != 0)
+        fail(target, "cannot be written");
+    return exists;
+}
+
+/// Waits until the file or folder is on the disk. Some file systems cannot do that.
+bool sync(int descriptor) {
+    return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+}
+
+/// Waits until a renamed file is on the disk under its new name.
+bool sync_folder_of(const std::filesystem::path& file) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+        return true; // a folder that may be written but not read
+    const bool synced = sync(descriptor);
+    const int reason = errno;
+    ::close(descriptor);
+    errno = reason;
+    return synced;
+}
+
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
     struct stat old {};
-    const bool exists = ::stat(target.c_str(), &old) == 0;
-    if (exists && S_ISDIR(old.st_mode))
-        throw IoError(target.string() + ": is a folder; name a file to write");
-    if (exists && !S_ISREG(old.st_mode))
-        throw IoError(target.string() + ": is a device, not a file; name a file to write");
-    if (exists && ::access(target.c_str(), W_OK) != 0)
-        fail(target, "cannot be written");
+    const bool exists = check_target(target, old);
     // Keep a link: replace the file that it points to.
     std::error_code unresolved;
     if (std::filesystem::is_symlink(target, unresolved))
-        target_ = std::filesystem::weakly_canonical(target);
+        target_ = std::filesystem::canonical(target);
 
     std::random_device random;
     do {
@@ -103,14 +135,16 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
-    const int closed = ::close(descriptor_);
-    descriptor_ = -1;
-    if (closed != 0)
+    // First the contents, so that the name never belongs to a file that a power cut left incomplete.
+    const bool synced = sync(descriptor_);
+    if (!synced || ::close(std::exchange(descriptor_, -1)) != 0)
         fail(target_, "cannot be written");
     if (::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(target_, "cannot be replaced");
     temporary_.clear();
     forget(std::exchange(slot_, -1));
+    if (!sync_folder_of(target_))
+        fail(target_, "may be lost in a power cut");
 }
 
 void remove_unfinished_files() noexcept {

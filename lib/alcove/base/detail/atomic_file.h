@@ -7,9 +7,11 @@
 namespace alcove {
 
 /// Collects bytes in a temporary file in the folder of the target. commit() renames it over the target; without
-/// commit(), the destructor removes it and the target is unchanged. Every failure throws IoError with the target.
+/// commit(), the destructor removes it and the target is unchanged. A target that is a link stays one: the file that it
+/// leads to is replaced. Every failure throws IoError with the target.
 class AtomicFile {
   public:
+    /// \throw also InputError if the target is a pipe, a socket, a device, or a link that leads to no file.
     explicit AtomicFile(const std::filesystem::path& target);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -19,6 +21,7 @@ class AtomicFile {
     const std::filesystem::path& temporary() const { return temporary_; }
 
     void write(std::string_view bytes); ///< unbuffered: pass large blocks
+    /// Returns when the file is on the disk under its name, as far as the file system can tell.
     void commit();
 
   private:

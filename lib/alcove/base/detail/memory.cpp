@@ -1,11 +1,15 @@
 #include "alcove/base/detail/memory.h"
 
+#include <algorithm>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #ifdef __linux__
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace alcove {
@@ -33,6 +37,12 @@ void forget_peak_resident_bytes() {
     std::ofstream("/proc/self/clear_refs") << 5; // proc(5)
 }
 
+double system_memory() {
+    const double machine =
+        static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+    return std::min(machine, control_group_memory("/proc/self/cgroup", "/sys/fs/cgroup"));
+}
+
 #else
 
 void prefer_huge_pages(void*, std::size_t) {}
@@ -43,6 +53,27 @@ std::size_t peak_resident_bytes() {
 
 void forget_peak_resident_bytes() {}
 
+double system_memory() {
+    return std::numeric_limits<double>::infinity();
+}
+
 #endif
+
+double control_group_memory(const std::filesystem::path& membership, const std::filesystem::path& groups) {
+    double least = std::numeric_limits<double>::infinity();
+    std::ifstream lines(membership);
+    for (std::string line; std::getline(lines, line);) {
+        constexpr std::string_view version_2 = "0::/";
+        if (!line.starts_with(version_2))
+            continue;
+        std::filesystem::path group = line.substr(version_2.size());
+        for (bool outermost = false; !outermost; group = group.parent_path()) {
+            outermost = group.empty();
+            if (double bytes = 0.0; std::ifstream(groups / group / "memory.max") >> bytes) // else "max"
+                least = std::min(least, bytes);
+        }
+    }
+    return least;
+}
 
 }

@@ -1,8 +1,9 @@
-/// Large arrays on pages of 2 MB, and the resident memory of the process. Allocating a page takes longer than
+/// Large arrays on pages of 2 MB, and the memory of the process and of the machine. Allocating a page takes longer than
 /// filling it, and a mesh of a million triangles occupies tens of thousands of small pages.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <utility>
@@ -61,5 +62,13 @@ std::size_t peak_resident_bytes();
 
 /// Resets the peak.
 void forget_peak_resident_bytes();
+
+/// Bytes of memory of the machine, or of the control group (cgroup v2) if that has less; infinite if the system reports
+/// neither.
+double system_memory();
+
+/// The least `memory.max` of a control group and of those around it; infinite if there is none. `membership` is a file
+/// such as /proc/self/cgroup, `groups` a folder such as /sys/fs/cgroup.
+double control_group_memory(const std::filesystem::path& membership, const std::filesystem::path& groups);
 
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace alcove {
 namespace {
@@ -71,6 +72,14 @@ std::string rounded(double number, int digits) {
     std::string text = fmt::format("{:.{}f}", number, after_point);
     text.erase(text.find_last_not_of('0') + 1);
     return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
+}
+
+std::string bytes_text(double bytes) {
+    constexpr int digits = 3;
+    for (const auto& [unit, name] : {std::pair{1e9, " GB"}, {1e6, " MB"}, {1e3, " kB"}})
+        if (bytes >= unit)
+            return rounded(bytes / unit, digits) + name;
+    return rounded(bytes, digits) + " bytes";
 }
 
 std::string counted(std::size_t count, std::string_view singular, std::string_view plural) {

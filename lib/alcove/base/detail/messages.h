@@ -21,6 +21,9 @@ std::string grouped(std::size_t count);
 /// "53,000,000".
 std::string rounded(double number, int digits);
 
+/// A number of bytes to three digits: "20 bytes", "1.5 kB", "512 MB", "4,300 GB".
+std::string bytes_text(double bytes);
+
 /// "1 vertex", "1,234 vertices".
 std::string counted(std::size_t count, std::string_view singular, std::string_view plural);
 

@@ -1,5 +1,6 @@
 #include "alcove/grid/detail/plan.h"
 
+#include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
@@ -76,10 +77,14 @@ struct Estimate {
     }
 };
 
+double limit_of(const GridOptions& options) {
+    return std::min(options.memory_limit, memory_limit());
+}
+
 std::string too_many(std::size_t triangles, double bytes, const GridOptions& options) {
-    return fmt::format("a grid of {} triangles needs {} GB or more, over the limit of {} GB: use fewer triangles, or "
-                       "bake with --method exact, which needs no grid",
-                       grouped(triangles), rounded(bytes / 1e9, 2), rounded(options.memory_limit / 1e9, 2));
+    return fmt::format("a grid of {} triangles needs {} GB or more, over the limit of {} GB: use fewer triangles, "
+                       "raise --max-memory, or bake with --method exact, which needs no grid",
+                       grouped(triangles), rounded(bytes / 1e9, 2), rounded(limit_of(options) / 1e9, 2));
 }
 
 }
@@ -114,19 +119,19 @@ double triangles_voxelized(double area, std::size_t triangles, double voxel, con
 }
 
 double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOptions& options) {
-    return Estimate(size, triangles, options).finest(options.memory_limit);
+    return Estimate(size, triangles, options).finest(limit_of(options));
 }
 
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
     const Estimate estimate(surface_size(mesh, triangles), triangles.size(), options);
-    const double finest = estimate.finest(options.memory_limit);
+    const double finest = estimate.finest(limit_of(options));
     if (!std::isfinite(finest))
         throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));
     if (options.voxel > 0.0f && options.voxel < finest)
         throw LimitError(fmt::format("a voxel of {} % of the diagonal needs about {} GB, over the limit of {} GB: use "
-                                     "--voxel {}% or more, or --voxel auto",
+                                     "--voxel {}% or more, use --voxel auto, or raise --max-memory",
                                      rounded(100.0 * options.voxel, 3), rounded(estimate.bytes(options.voxel) / 1e9, 2),
-                                     rounded(options.memory_limit / 1e9, 2), std::ceil(1e4 * finest) / 100.0));
+                                     rounded(limit_of(options) / 1e9, 2), std::ceil(1e4 * finest) / 100.0));
     LevelPlan plan;
     plan.outer_band = std::max(options.outer_band, min_outer_band);
     plan.inner_band = std::max(options.inner_band, min_inner_band);
@@ -149,7 +154,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
 void check_clustered(const LevelPlan& plan, std::size_t triangles, const GridOptions& options) {
     const double bytes =
         plan.bytes + bytes_per_triangle * std::max(static_cast<double>(triangles) - plan.triangles, 0.0);
-    if (bytes > options.memory_limit)
+    if (bytes > limit_of(options))
         throw LimitError(too_many(triangles, bytes, options));
 }
 

@@ -1,76 +1,51 @@
 #include "alcove/mesh/formats/file_bytes.h"
 
+#include "alcove/base/detail/input_file.h"
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <limits>
+#include <cstdlib>
+#include <new>
+#include <utility>
 
 namespace alcove {
 namespace {
 
-struct Descriptor {
-    int number;
-    ~Descriptor() {
-        if (number >= 0)
-            ::close(number);
-    }
-};
+constexpr std::size_t smallest_capacity = std::size_t{1} << 16; // of a pipe
 
-[[noreturn]] void fail_io(const std::filesystem::path& file, const char* what) {
-    const int reason = errno;
-    throw IoError(file.string() + ": " + what + ": " + std::strerror(reason));
+struct Free {
+    void operator()(char* bytes) const { std::free(bytes); }
+};
+using Buffer = std::unique_ptr<char, Free>;
+
+/// Moves the pages of a large buffer instead of copying its bytes.
+Buffer grown(Buffer bytes, std::size_t capacity) {
+    auto* larger = static_cast<char*>(std::realloc(bytes.get(), capacity));
+    if (larger == nullptr)
+        throw std::bad_alloc();
+    (void)bytes.release();
+    prefer_huge_pages(larger, capacity);
+    return Buffer(larger);
 }
 
 }
 
 FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
-    const Descriptor input{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (input.number < 0)
-        throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno) + "; check the name");
-    struct stat status {};
-    if (::fstat(input.number, &status) != 0)
-        fail_io(file, "cannot be read");
-    if (S_ISDIR(status.st_mode))
-        fail("is a folder; name a mesh file in it");
-    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
-        fail("is a device, not a file; name a mesh file");
-
-    std::size_t capacity = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 1u << 16;
-    bytes_.reset(new char[capacity + 1]);
-    prefer_huge_pages(bytes_.get(), capacity + 1);
-    for (;;) {
+    InputFile input(file);
+    // A read into the spare byte finds the end of a file, or that it is longer than its size says.
+    std::size_t capacity = input.size() + 1;
+    Buffer bytes = grown({}, capacity);
+    while (const std::size_t got = input.read(bytes.get() + size_, capacity - size_)) {
+        size_ += got;
         if (size_ == capacity) {
-            char more = 0;
-            const ssize_t got = ::read(input.number, &more, 1);
-            if (got == 0)
-                break;
-            if (got > 0) {
-                std::shared_ptr<char[]> larger(new char[capacity * 2 + 2]);
-                std::memcpy(larger.get(), bytes_.get(), size_);
-                bytes_ = std::move(larger);
-                capacity = capacity * 2 + 1;
-                bytes_[size_++] = more;
-                continue;
-            }
+            capacity = std::max(2 * capacity, smallest_capacity);
+            bytes = grown(std::move(bytes), capacity);
         }
-        const std::size_t wanted = std::min<std::size_t>(capacity - size_, 1u << 30);
-        const ssize_t got = ::read(input.number, bytes_.get() + size_, wanted);
-        if (got == 0 && wanted > 0)
-            break;
-        if (got < 0 && errno != EINTR)
-            fail_io(file, "cannot be read");
-        if (got > 0)
-            size_ += static_cast<std::size_t>(got);
     }
-    bytes_[size_] = '\0';
+    bytes.get()[size_] = '\0';
+    bytes_ = std::shared_ptr<char[]>(bytes.release(), std::free);
     if (size_ == 0)
         fail(file.extension() == ".toml" ? "is empty" : "is empty; export it again");
 }

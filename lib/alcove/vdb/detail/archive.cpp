@@ -129,17 +129,6 @@ void refuse(const std::filesystem::path& file, const std::string& what) {
     throw InputError(fmt::format("{}: {}", file.string(), in_one_line(what)));
 }
 
-void check_openable(const std::filesystem::path& file) {
-    std::error_code failed;
-    const std::filesystem::file_status status = std::filesystem::status(file, failed);
-    if (std::filesystem::is_directory(status))
-        refuse(file, "is a folder; name a .vdb file in it");
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        refuse(file, "is not a regular file: copy its data to a file and name that");
-    if (!std::ifstream(file, std::ios::binary))
-        refuse(file, fmt::format("cannot be opened: {}; check the name", std::strerror(errno)));
-}
-
 std::vector<VdbGrid> read_trees(const std::filesystem::path& file, const VdbStructure& structure,
                                 const std::vector<bool>& wanted) {
     std::vector<VdbGrid> grids;

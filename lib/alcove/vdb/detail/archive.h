@@ -13,9 +13,6 @@ namespace alcove {
 /// \throw InputError "FILE: what", in one line.
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 
-/// \throw InputError if the file is missing, or neither a file nor readable.
-void check_openable(const std::filesystem::path& file);
-
 /// Reads the grids whose place in the file is `wanted`, in that order, each with a tree of its own. Doubles become
 /// floats. Each must be of floats or doubles. \throw InputError if OpenVDB cannot read them, their values are not finite
 /// or the number of active voxels is not that of their metadata.

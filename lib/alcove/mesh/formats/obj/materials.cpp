@@ -3,8 +3,8 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/file_bytes.h"
-#include "alcove/mesh/formats/text_encoding.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/formats/text_encoding.h"
 
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>

@@ -6,7 +6,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,7 +16,8 @@ namespace alcove {
 
 class ObjDocument : public SourceDocument {
   public:
-    std::string text;
+    std::string_view text; ///< of the whole file, in memory that `keeper` owns
+    std::shared_ptr<const void> keeper;
     std::filesystem::path folder;          ///< that of the file, from which it names other files
     std::vector<std::size_t> vertex_lines; ///< byte offset of the 'v' of each vertex, in file order
     std::vector<std::size_t> file_lines;   ///< byte offset of each keyword that is followed by names of files
@@ -25,7 +28,7 @@ class ObjDocument : public SourceDocument {
         if (place == std::string::npos)
             return {};
         const std::size_t at = text.find(beginning, place);
-        return std::string_view(text).substr(at, text.find_first_of("\r\n", at) - at);
+        return text.substr(at, text.find_first_of("\r\n", at) - at);
     }
 
     /// The faces from `first_face` to the next use have the material `name`.

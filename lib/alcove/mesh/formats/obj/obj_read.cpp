@@ -254,6 +254,7 @@ class ObjReader {
         if (unknown_lines_ > 0)
             document_->other_lines.emplace_back("lines of unknown keywords", unknown_lines_);
         document_->text = file_.view();
+        document_->keeper = file_.keeper();
         document_->folder = file_.path().parent_path();
         std::size_t comments = without_byte_order_mark(document_->text).starts_with('#');
         for (std::size_t at = 0; (at = document_->text.find("\n#", at)) != std::string::npos; ++at)

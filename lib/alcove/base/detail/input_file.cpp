@@ -1,0 +1,81 @@
+#include "alcove/base/detail/input_file.h"
+
+#include "alcove/base/detail/file_kind.h"
+#include "alcove/base/detail/limits.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/types.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+namespace alcove {
+namespace {
+
+[[noreturn]] void fail_to_open(const std::filesystem::path& file) {
+    throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno) + "; check the name");
+}
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& file) {
+    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno) + "; copy it from its source again");
+}
+
+[[noreturn]] void refuse_kind(const std::filesystem::path& file, const std::string& kind) {
+    throw InputError(file.string() + ": is " + kind + (kind == "a folder" ? "; name a file in it" : "; name a file"));
+}
+
+void check_size(const std::filesystem::path& file, std::size_t bytes) {
+    if (static_cast<double>(bytes) > read_limit())
+        throw LimitError(file.string() + ": is larger than " + bytes_text(read_limit()) +
+                         ", the limit for one file: raise --max-read (by default half of --max-memory, at most 4 GB)");
+}
+
+}
+
+InputFile::InputFile(const std::filesystem::path& file)
+    : path_(file), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_.number < 0)
+        fail_to_open(file);
+    struct stat status {};
+    if (::fstat(descriptor_.number, &status) != 0)
+        fail_to_read(file);
+    if (const char* kind = special_kind(status); kind && !S_ISFIFO(status.st_mode))
+        refuse_kind(file, kind);
+    size_ = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+    check_size(file, size_);
+}
+
+InputFile::Descriptor::~Descriptor() {
+    if (number >= 0)
+        ::close(number);
+}
+
+std::size_t InputFile::read(char* to, std::size_t count) {
+    for (;;) {
+        const ssize_t got = ::read(descriptor_.number, to, std::min<std::size_t>(count, 1u << 30));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            fail_to_read(path_);
+        done_ += static_cast<std::size_t>(got);
+        check_size(path_, done_);
+        return static_cast<std::size_t>(got);
+    }
+}
+
+void check_input_file(const std::filesystem::path& file) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0)
+        fail_to_open(file);
+    if (const char* kind = special_kind(status)) // before it is opened, which would wait for the writer of a pipe
+        refuse_kind(file, kind);
+    char first = 0;
+    InputFile(file).read(&first, 1);
+}
+
+}

@@ -1,0 +1,40 @@
+/// A file or pipe that is read from begin to end, at most read_limit() bytes of it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+namespace alcove {
+
+class InputFile {
+  public:
+    /// Opens a regular file, or a pipe after waiting for its writer. \throw InputError for anything else, LimitError for a
+    /// file that is too large.
+    explicit InputFile(const std::filesystem::path& file);
+
+    /// The size that the system reports: 0 for a pipe, and files may grow.
+    std::size_t size() const { return size_; }
+    /// Reads up to `count` bytes, > 0. \return how many; 0 at the end. \throw InputError if the system cannot read the
+    /// file, LimitError beyond the limit.
+    std::size_t read(char* to, std::size_t count);
+
+  private:
+    struct Descriptor {
+        explicit Descriptor(int n) : number(n) {}
+        ~Descriptor();
+        Descriptor(const Descriptor&) = delete;
+        Descriptor& operator=(const Descriptor&) = delete;
+
+        int number;
+    };
+    std::filesystem::path path_;
+    Descriptor descriptor_;
+    std::size_t size_ = 0;
+    std::size_t done_ = 0; ///< bytes read
+};
+
+/// For libraries that open the file themselves and move back and forth in it. \throw InputError unless it is a regular
+/// file whose first byte can be read, or empty; LimitError if it is too large.
+void check_input_file(const std::filesystem::path& file);
+
+}
