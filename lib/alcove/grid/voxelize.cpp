@@ -1,11 +1,11 @@
 #include "alcove/grid/voxelize.h"
 
+#include "alcove/base/detail/duplicate_faces.h"
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/clustered.h"
-#include "alcove/grid/detail/duplicate_faces.h"
 #include "alcove/grid/detail/level_set.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/grid/detail/sign.h"
@@ -92,7 +92,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     Surface near = clustered ? clustered->surface() : whole;
     std::vector<Triangle> single;
     if (stack.sign == Sign::sheet) {
-        single = without_duplicate_faces(near.positions, near.triangles);
+        single = without_duplicate_faces<Vec3d>(near.positions, near.triangles);
         near.triangles = single;
     }
     const TriangleTree tree = tree_of(near);

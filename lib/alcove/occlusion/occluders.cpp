@@ -1,7 +1,9 @@
 #include "alcove/occlusion/occluders.h"
 
+#include "alcove/base/detail/duplicate_faces.h"
 #include "alcove/base/types.h"
 #include "alcove/field/detail/trace.h"
+#include "alcove/occlusion/detail/fan.h"
 #include "alcove/occlusion/detail/triangle_pairs.h"
 
 #include <embree3/rtcore.h>
@@ -25,7 +27,8 @@ struct RaySurface::Scene {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
     std::vector<TrianglePair> pairs; // Embree's quads
-    const Vec3* positions = nullptr; // Embree's vertices
+    std::vector<Fan> fans;           // triangles that are not among the pairs
+    const Vec3* vertices = nullptr;  // Embree's
 
     Scene() = default;
     Scene(const Scene&) = delete;
@@ -35,6 +38,7 @@ struct RaySurface::Scene {
         rtcReleaseDevice(device);
     }
 
+    void build(std::span<const Vec3> positions, std::span<const Triangle> triangles);
     void check() const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
             throw MemoryError(fmt::format("not enough memory for the BVH of the triangles (Embree error {}); "
@@ -43,6 +47,32 @@ struct RaySurface::Scene {
     }
 };
 
+void RaySurface::Scene::build(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    const auto buffer = [&](RTCGeometry geometry, RTCBufferType type, RTCFormat format, const auto& items) {
+        // Copied, not shared: Embree reads past the last vertex.
+        void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size());
+        check();
+        std::memcpy(to, items.data(), items.size_bytes());
+        return to;
+    };
+    // Builds in a quarter of the time of higher quality, and rays are as fast.
+    constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
+    rtcSetSceneBuildQuality(scene, quality);
+    // Embree splits a quad into the same two triangles as a pair, with half as many primitives to build from.
+    pairs = pair_triangles(positions, triangles);
+    if (!pairs.empty()) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+        rtcSetGeometryBuildQuality(geometry, quality);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        vertices = static_cast<const Vec3*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions));
+        buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, std::span<const TrianglePair>(pairs));
+        rtcCommitGeometry(geometry);
+    }
+    rtcCommitScene(scene);
+    check();
+}
+
 RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
     for (const Triangle& triangle : triangles)
         for (const std::uint32_t corner : triangle)
@@ -50,31 +80,12 @@ RaySurface::RaySurface(std::span<const Vec3> positions, std::span<const Triangle
                 throw InputError(
                     fmt::format("a triangle refers to position {}, but there are only {}", corner, positions.size()));
     const auto scene = std::make_shared<Scene>();
-    const auto buffer = [&](RTCGeometry geometry, RTCBufferType type, RTCFormat format, const auto& items) {
-        // Copied, not shared: Embree reads past the last vertex.
-        void* to = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(items[0]), items.size());
-        scene->check();
-        std::memcpy(to, items.data(), items.size_bytes());
-        return to;
-    };
-    // Builds in a quarter of the time of higher quality, and rays are as fast.
-    constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
-    rtcSetSceneBuildQuality(scene->scene, quality);
-    // Embree splits a quad into the same two triangles as a pair, with half as many primitives to build from.
-    scene->pairs = pair_triangles(positions, triangles);
-    const std::vector<TrianglePair>& pairs = scene->pairs;
-    if (!pairs.empty()) {
-        RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_QUAD);
-        rtcSetGeometryBuildQuality(geometry, quality);
-        rtcAttachGeometry(scene->scene, geometry);
-        rtcReleaseGeometry(geometry);
-        scene->positions =
-            static_cast<const Vec3*>(buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions));
-        buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, std::span<const TrianglePair>(pairs));
-        rtcCommitGeometry(geometry);
-    }
-    rtcCommitScene(scene->scene);
-    scene->check();
+    // A ray near coinciding triangles, or near the middle of a fan, would test all of them.
+    std::vector<Triangle> distinct, others;
+    if (has_duplicates_in_sample(positions, triangles))
+        triangles = distinct = without_duplicate_faces(positions, triangles, Duplicates::of_one_side);
+    scene->fans = fans_of(positions, triangles, others);
+    scene->build(positions, scene->fans.empty() ? triangles : others);
     scene_ = scene;
 }
 
@@ -91,6 +102,10 @@ RTCRay embree_ray(const RayBatch& rays, std::size_t i, float far) {
     ray.id = static_cast<unsigned>(i);
     ray.flags = 0;
     return ray;
+}
+
+RaySegment segment_of(const RayBatch& rays, std::size_t i, float near, float far) {
+    return {{rays.x[i], rays.y[i], rays.z[i]}, {rays.dx[i], rays.dy[i], rays.dz[i]}, near, far};
 }
 
 /// Below the diagonal, u + v <= 1, the hit is on the pair's first triangle (0, 1, 3), else on the second (2, 3, 1).
@@ -114,6 +129,9 @@ void RaySurface::find_occluded(RayBatch& rays, float far) const {
     rtcOccluded1M(scene_->scene, &context, stream.data(), static_cast<unsigned>(rays.count), sizeof(RTCRay));
     for (std::size_t i = 0; i < rays.count; ++i)
         rays.hit[i] = stream[i].tfar < 0.0f;
+    for (const Fan& fan : scene_->fans)
+        for (std::size_t i = 0; i < rays.count; ++i)
+            rays.hit[i] = rays.hit[i] || fan.find(segment_of(rays, i, rays.travelled[i], far), Fan::Wanted::any);
 }
 
 void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const {
@@ -132,10 +150,19 @@ void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> h
         rays.travelled[i] = stream[i].ray.tfar;
         hits[i] = hit_of(stream[i].hit, scene_->pairs[stream[i].hit.primID]);
     }
+    for (const Fan& fan : scene_->fans)
+        for (std::size_t i = 0; i < rays.count; ++i) {
+            const RaySegment segment = segment_of(rays, i, stream[i].ray.tnear, rays.hit[i] ? rays.travelled[i] : far);
+            if (const std::optional<Fan::Hit> found = fan.find(segment, Fan::Wanted::nearest)) {
+                rays.hit[i] = true;
+                rays.travelled[i] = static_cast<float>(found->distance);
+                hits[i] = {fan.triangles()[found->triangle], Vec3(found->weights), Vec3(found->normal)};
+            }
+        }
 }
 
 Vec3 RaySurface::position(std::uint32_t index) const {
-    return scene_->positions[index];
+    return scene_->vertices[index];
 }
 
 void RaySurface::find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const {

@@ -41,8 +41,9 @@ class RaySurface {
     /// point, for rays that hit. `hits` has one entry per ray.
     void find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const;
 
-    /// Replaces `found` by the triangles within `distance` of a point, and some that are further away. Cost: about 0.3 µs
-    /// if neighbouring points follow each other, and 10 ns per triangle.
+    /// Replaces `found` by the triangles within `distance` of a point, and some that are further away. Leaves
+    /// out duplicates, and triangles of fans of thousands around a vertex. Cost: about 0.3 µs if neighbouring points
+    /// follow each other, and 10 ns per triangle.
     void find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const;
     /// A position that the constructor got. `index` is a corner of a triangle that can be hit.
     Vec3 position(std::uint32_t index) const;

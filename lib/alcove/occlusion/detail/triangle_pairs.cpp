@@ -6,14 +6,6 @@
 namespace alcove {
 namespace {
 
-bool can_be_hit(std::span<const Vec3> positions, const Triangle& t) {
-    const auto finite = [&](std::uint32_t corner) {
-        const Vec3& p = positions[corner];
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    };
-    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0] && std::all_of(t.begin(), t.end(), finite);
-}
-
 /// Adds the triangle to the pair if the pair has only one and they share an edge.
 bool join(TrianglePair& pair, const Triangle& triangle) {
     if (pair[3] != pair[2])
@@ -32,6 +24,14 @@ bool join(TrianglePair& pair, const Triangle& triangle) {
     return false;
 }
 
+}
+
+bool can_be_hit(std::span<const Vec3> positions, const Triangle& t) {
+    const auto finite = [&](std::uint32_t corner) {
+        const Vec3& p = positions[corner];
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    };
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0] && std::all_of(t.begin(), t.end(), finite);
 }
 
 std::vector<TrianglePair> pair_triangles(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
