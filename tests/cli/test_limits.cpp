@@ -70,7 +70,7 @@ TEST_F(Limits, LessMemoryMakesAGridCoarser) {
         EXPECT_EQ(outcome.code, done) << outcome.err;
         return outcome.json().at("voxel").get<double>();
     };
-    EXPECT_GT(voxel("30MB"), 1.5 * voxel("1GB"));
+    EXPECT_GT(voxel("10MB"), 1.5 * voxel("1GB"));
     expect_refusal({"voxelize", mesh, "-o", "out.vdb", "--voxel", "0.1%", "--max-memory", "30MB", "--max-read", "1GB"},
                    bad_input, {"over the limit of 0.03 GB", "--voxel", "--max-memory"});
     // A memory limit that nothing fits is no reason to refuse rays on the mesh.
