@@ -132,7 +132,7 @@ Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles) {
     const LevelPlan plan = plan_levels(mesh, triangles, {});
     const Box box = mesh.box();
     const Frame frame = frame_of(box);
-    const HugeVector<Vec3d> positions = index_positions(mesh, frame, Vec3d(origin_of(box, frame, plan)), plan.voxel);
+    const HugeVector<Vec3d> positions = index_positions(mesh, frame, place(box, frame, plan, {}));
     std::vector<std::string> warnings;
     return choose_sign(SignChoice::automatic, mesh, WindingColumns(positions, triangles), positions, triangles,
                        warnings);

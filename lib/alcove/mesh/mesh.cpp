@@ -37,9 +37,9 @@ void Mesh::set_attribute(Attribute attribute) {
         attributes.push_back(std::move(attribute));
 }
 
-const Attribute* Mesh::find_attribute(std::string_view name) const {
+const Attribute* Mesh::find_attribute(std::string_view wanted) const {
     const auto found =
-        std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == name; });
+        std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == wanted; });
     return found == attributes.end() ? nullptr : &*found;
 }
 

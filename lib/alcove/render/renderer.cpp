@@ -105,9 +105,9 @@ class Resolver {
             }
         }
         const float share = 1.0f / static_cast<float>(options_.samples);
-        const auto set = [&](Pass pass, auto& values, const auto& mean) {
+        const auto set = [&](Pass pass, auto& pixels, const auto& mean) {
             if (image_.passes.has(pass))
-                values[i] = mean;
+                pixels[i] = mean;
         };
         image_.alpha[i] = share * alpha;
         set(Pass::beauty, image_.color, share * color);
