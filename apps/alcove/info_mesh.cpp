@@ -120,9 +120,13 @@ void add_sign(Facts& facts, const Mesh& mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     if (triangles.empty())
         return facts.add("sign", nullptr, "none: there is nothing to bake");
-    const bool solid = sign_of(mesh, triangles) == Sign::solid;
-    facts.add("sign", solid ? "solid" : "sheet",
-              solid ? "a solid" : "a sheet: faces occlude from both sides, and there is no inside");
+    try {
+        const bool solid = sign_of(mesh, triangles) == Sign::solid;
+        facts.add("sign", solid ? "solid" : "sheet",
+                  solid ? "a solid" : "a sheet: faces occlude from both sides, and there is no inside");
+    } catch (const LimitError&) {
+        facts.add("sign", nullptr, "unknown: no grid fits in memory");
+    }
 }
 
 }

@@ -44,13 +44,15 @@ Placing place(const Box& box, const Frame& frame, const LevelPlan& plan, const s
     return placing;
 }
 
-/// Positions in voxels of the finest level.
+/// Positions in voxels of the finest level; 0 for vertices that no face uses, which may be far away.
 HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Placing& placing) {
     const Vec3d first(placing.first);
-    HugeVector<Vec3d> positions(mesh.positions.size());
+    const std::vector<std::uint8_t> used = mesh.used_vertices();
+    HugeVector<Vec3d> positions(mesh.positions.size(), Vec3d(0.0));
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
-            positions[v] = (exact_in_unit(frame, mesh.positions[v]) - placing.origin) / placing.voxel - first;
+            if (used[v])
+                positions[v] = (exact_in_unit(frame, mesh.positions[v]) - placing.origin) / placing.voxel - first;
     });
     return positions;
 }

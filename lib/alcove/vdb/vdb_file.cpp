@@ -106,8 +106,10 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
             refuse(file, fmt::format("grid '{}' was turned or scaled after alcove wrote it: voxelize the mesh again",
                                      grid->getName()));
         level.voxel = voxel;
-        if (!stack.lattice)
-            level.origin = Vec3d(Vec3(level.origin)); // as it was before it was written
+        if (!stack.lattice) { // as it was before it was written
+            const Vec3 rounded_origin(level.origin);
+            level.origin = Vec3d(rounded_origin);
+        }
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))
@@ -208,6 +210,7 @@ Chosen read_chosen(const std::filesystem::path& file, const GridSelection& selec
     chosen.grids = read_trees(file, structure, wanted);
     return chosen;
 }
+
 }
 
 void scale_values(FloatGrid& grid, double factor) {

@@ -9,7 +9,14 @@
 namespace alcove {
 namespace {
 
-/// The number of bytes of the character at the start of `text`, in UTF-8; 0 if it is a control character or invalid.
+/// Byte-order marks, blanks without width, line separators and marks of the writing direction.
+bool is_invisible(unsigned code) {
+    return code == 0xfeff || (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+           (code >= 0x2060 && code <= 0x2069);
+}
+
+/// The number of bytes of the character at the start of `text`, in UTF-8; 0 if it is a control character,
+/// invisible or invalid.
 std::size_t printable_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
     if (byte(0) < 0x80)
@@ -25,7 +32,7 @@ std::size_t printable_length(std::string_view text) {
     }
     constexpr unsigned smallest[] = {0, 0, 0xa0, 0x800, 0x10000}; // U+0080 to U+009F are control characters
     const bool surrogate = code >= 0xd800 && code < 0xe000;
-    return code >= smallest[length] && code <= 0x10ffff && !surrogate ? length : 0;
+    return code >= smallest[length] && code <= 0x10ffff && !surrogate && !is_invisible(code) ? length : 0;
 }
 
 /// Moves the first character of `from`, or '?' for its first byte.

@@ -17,8 +17,10 @@ namespace alcove {
 struct TextSyntax {
     char comment = '\0';       ///< at the start of a token, it and the rest of its line count as the line end
     bool continuation = false; ///< a backslash at the end of a line joins the next one to it
+    /// A comment also begins after the last digit of a number, as some programs write it. Not after a point: "1.#IND".
+    bool comment_after_digit = false;
 };
-inline constexpr TextSyntax off_syntax{'#', false};
+inline constexpr TextSyntax off_syntax{'#', false, true};
 inline constexpr TextSyntax obj_syntax{'#', true};
 
 /// The value of a token that old run-time libraries print for an infinite number or none: "1.#INF00", "-1.#IND",
@@ -130,7 +132,8 @@ class TextScanner {
         for (; digit < end_ && *digit >= '0' && *digit <= '9'; ++digit)
             if (digit - first < longest_integer)
                 value = value * 10 + (*digit - '0');
-        if (digit == first || digit - first > longest_integer || !is_token_end(digit))
+        if (digit == first || digit - first > longest_integer ||
+            !(is_token_end(digit) || is_comment_after_digit(digit)))
             fail_token("a whole number", expected);
         at_ = digit;
         return negative ? -value : value;
@@ -155,12 +158,15 @@ class TextScanner {
     bool is_token_end(const char* at) const {
         return at == end_ || is_blank(*at) || is_line_end(*at) || is_continuation(at);
     }
+    bool is_comment_after_digit(const char* at) const {
+        return syntax_.comment_after_digit && at < end_ && is_comment(*at) && at[-1] >= '0' && at[-1] <= '9';
+    }
     /// Stores the value of the token at this position and returns its end; null if it is not a number.
     template <class Real>
     const char* end_of_number(Real& value) {
         const char* const first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);
         const auto [last, error] = fast_float::from_chars(first, end_, value);
-        if (error != std::errc::invalid_argument && is_token_end(last))
+        if (error != std::errc::invalid_argument && (is_token_end(last) || is_comment_after_digit(last)))
             return last;
         const std::string_view token = peek();
         const std::optional<double> non_finite = non_finite_number(token);

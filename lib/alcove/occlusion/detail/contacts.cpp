@@ -1,8 +1,8 @@
 #include "alcove/occlusion/detail/contacts.h"
 
+#include "alcove/base/detail/closest_point.h"
 #include "alcove/base/parallel.h"
 #include "alcove/field/detail/trace.h"
-#include "alcove/base/detail/closest_point.h"
 #include "alcove/occlusion/detail/touching_faces.h"
 #include "alcove/occlusion/estimator.h"
 
