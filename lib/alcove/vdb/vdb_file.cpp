@@ -106,10 +106,8 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
             refuse(file, fmt::format("grid '{}' was turned or scaled after alcove wrote it: voxelize the mesh again",
                                      grid->getName()));
         level.voxel = voxel;
-        if (!stack.lattice) { // as it was before it was written
-            const Vec3 rounded_origin(level.origin);
-            level.origin = Vec3d(rounded_origin);
-        }
+        if (!stack.lattice)
+            level.origin = rounded_to_floats(level.origin); // as it was before it was written
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))

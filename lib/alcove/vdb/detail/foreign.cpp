@@ -87,6 +87,15 @@ Vec3d origin_of(const VdbGrid& grid) {
     return {origin.x(), origin.y(), origin.z()};
 }
 
+Vec3d rounded_to_floats(const Vec3d& p) {
+    Vec3d result;
+    for (int axis = 0; axis < 3; ++axis) {
+        const volatile auto rounded = static_cast<float>(p[axis]); // GCC 12 vectorizes the conversion away otherwise
+        result[axis] = static_cast<double>(rounded);
+    }
+    return result;
+}
+
 void check_outliers(const VdbGrid& level, const std::filesystem::path& file, std::vector<std::string>& warnings) {
     const FloatGrid::Ptr grid = level.grid;
     const Outliers outliers = outliers_of(level, grid->voxelSize().x());

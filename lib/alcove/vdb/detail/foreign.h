@@ -16,6 +16,9 @@ float inner_band_of(const VdbGrid& grid);
 /// The centre of the voxel of index (0, 0, 0), scene units.
 Vec3d origin_of(const VdbGrid& grid);
 
+/// Each coordinate rounded to a float.
+Vec3d rounded_to_floats(const Vec3d& p);
+
 /// Warns of values that are not distances; refuses the file if one is larger than the grid is wide.
 void check_outliers(const VdbGrid& grid, const std::filesystem::path& file, std::vector<std::string>& warnings);
 
