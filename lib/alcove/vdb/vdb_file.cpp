@@ -2,6 +2,7 @@
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/input_file.h"
+#include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
@@ -189,6 +190,10 @@ struct Chosen {
     std::vector<std::string> names;
 };
 
+double limit_of(const GridSelection& selection) {
+    return std::min(selection.memory_limit, memory_limit());
+}
+
 Chosen read_chosen(const std::filesystem::path& file, const GridSelection& selection,
                    std::vector<std::string>& warnings) {
     check_input_file(file);
@@ -201,10 +206,11 @@ Chosen read_chosen(const std::filesystem::path& file, const GridSelection& selec
             bytes += static_cast<double>(structure.grids[i].bytes);
             chosen.names.push_back(structure.grids[i].grid.name);
         }
-    if (bytes > selection.memory_limit)
-        throw LimitError(fmt::format("{}: its level sets need about {} GB, over the limit of {} GB: resample to larger "
-                                     "voxels, or choose with --grid-name",
-                                     file.string(), rounded(bytes / 1e9, 2), rounded(selection.memory_limit / 1e9, 2)));
+    if (const double limit = limit_of(selection); bytes > limit)
+        throw LimitError(
+            fmt::format("{}: its level sets need about {}, over the limit of {}: resample to larger voxels, "
+                        "choose with --grid-name, or allow more with --max-memory",
+                        file.string(), bytes_text(bytes), bytes_text(limit)));
     chosen.grids = read_trees(file, structure, wanted);
     return chosen;
 }
@@ -285,7 +291,7 @@ GridStack read_grids(const std::filesystem::path& file, const GridSelection& sel
     std::vector<std::string> warnings;
     const Chosen chosen = read_chosen(file, selection, warnings);
     try {
-        GridStack stack = stack_of(chosen.grids, file, selection.memory_limit, warnings);
+        GridStack stack = stack_of(chosen.grids, file, limit_of(selection), warnings);
         stack.sources = chosen.names;
         stack.warnings.insert(stack.warnings.begin(), warnings.begin(), warnings.end());
         return stack;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +34,8 @@ std::vector<StoredGrid> list_grids(const std::filesystem::path& file);
 /// Which grids of a file to read.
 struct GridSelection {
     std::vector<std::string> names{}; ///< empty: all level sets
-    /// Limit of the memory for the grids, bytes.
-    double memory_limit = GridOptions{}.memory_limit;
+    /// Limit of the memory for the grids, bytes, at most that of the process.
+    double memory_limit = std::numeric_limits<double>::infinity();
 };
 
 /// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the union of all level sets of floats

@@ -164,6 +164,7 @@ std::vector<Fan> fans_of(std::span<const Vec3> positions, std::span<const Triang
         }
     }
     std::vector<Fan> fans;
+    fans.reserve(around.size());
     for (auto& [hub, fan] : around)
         fans.emplace_back(positions, std::move(fan));
     return fans;
