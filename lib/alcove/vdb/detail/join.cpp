@@ -124,7 +124,7 @@ FloatGrid::Ptr interpolated(const FloatGrid& grid, const openvdb::math::Transfor
     });
     openvdb::tools::pruneInactive(*tree);
     openvdb::tools::signedFloodFillWithValues(*tree, band.outer, -band.inner);
-    const auto result = FloatGrid::create(tree);
+    auto result = FloatGrid::create(tree);
     result->setTransform(lattice);
     return result;
 }
@@ -152,7 +152,7 @@ FloatGrid::Ptr voxelized(const FloatGrid::Ptr& grid, const openvdb::math::Transf
                                          grid->getName(), rounded(memory_limit / 1e9, 2), options.grid.lattice->voxel));
         }
     }();
-    const auto result = stack.levels.front().grid->grid;
+    auto result = stack.levels.front().grid->grid;
     scale_values(*result, stack.value_unit);
     result->setTransform(lattice);
     return result;
@@ -199,7 +199,7 @@ openvdb::math::Transform::Ptr lattice_of(const VdbGrid& finest) {
     const openvdb::math::Transform& own = finest.grid->transform();
     if (is_aligned(finest))
         return own.copy();
-    const auto lattice = openvdb::math::Transform::createLinearTransform(smallest_edge(*finest.grid));
+    auto lattice = openvdb::math::Transform::createLinearTransform(smallest_edge(*finest.grid));
     lattice->postTranslate(own.indexToWorld(openvdb::Vec3d(0.0)));
     return lattice;
 }
