@@ -161,15 +161,26 @@ void RaySurface::find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> h
         }
 }
 
-Vec3 RaySurface::position(std::uint32_t index) const {
-    return scene_->vertices[index];
+const Vec3* RaySurface::positions() const {
+    return scene_->vertices;
 }
 
 void RaySurface::find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const {
     struct Search {
         const std::vector<TrianglePair>& pairs;
+        const Vec3* positions;
+        Vec3 low, high; // box around the ball
         std::vector<Triangle>& found;
-    } search{scene_->pairs, found};
+
+        bool meets(const TrianglePair& pair) const {
+            const Vec3 &a = positions[pair[0]], &b = positions[pair[1]], &c = positions[pair[2]],
+                       &d = positions[pair[3]];
+            const Vec3 least = glm::min(glm::min(a, b), glm::min(c, d)),
+                       most = glm::max(glm::max(a, b), glm::max(c, d));
+            return least.x <= high.x && most.x >= low.x && least.y <= high.y && most.y >= low.y && least.z <= high.z &&
+                   most.z >= low.z;
+        }
+    } search{scene_->pairs, scene_->vertices, point - distance, point + distance, found};
     found.clear();
     RTCPointQuery query{point.x, point.y, point.z, 0.0f, distance};
     RTCPointQueryContext context;
@@ -177,6 +188,8 @@ void RaySurface::find_near(const Vec3& point, float distance, std::vector<Triang
     const auto add = [](RTCPointQueryFunctionArguments* at) {
         Search& to = *static_cast<Search*>(at->userPtr);
         const TrianglePair& pair = to.pairs[at->primID];
+        if (!to.meets(pair))
+            return false;
         to.found.push_back({pair[0], pair[1], pair[3]});
         if (pair[2] != pair[3])
             to.found.push_back({pair[2], pair[3], pair[1]});

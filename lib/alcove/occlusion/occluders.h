@@ -45,8 +45,8 @@ class RaySurface {
     /// out duplicates, and triangles of fans of thousands around a vertex. Cost: about 0.3 µs if neighbouring points
     /// follow each other, and 10 ns per triangle.
     void find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const;
-    /// A position that the constructor got. `index` is a corner of a triangle that can be hit.
-    Vec3 position(std::uint32_t index) const;
+    /// The positions that the constructor got; null if no triangle can be hit.
+    const Vec3* positions() const;
 
   private:
     struct Scene;

@@ -34,10 +34,29 @@ Box trimmed(const std::vector<Box>& boxes, std::size_t few) {
     return result;
 }
 
+/// At most this many of the faces that reach furthest count as outliers.
+std::size_t few_of(std::size_t faces) {
+    constexpr std::size_t min_few = 2, one_in = 100;
+    return std::max(min_few, faces / one_in);
+}
+
+/// Whether a sample of the faces spreads over more than the small share of the bounding box.
+bool spreads(const Mesh& mesh) {
+    constexpr std::size_t most = 4096;
+    std::vector<Box> sample;
+    for (std::size_t i = 0; i < most; ++i)
+        if (const Box box = box_of(mesh, i * mesh.face_count() / most); !box.empty())
+            sample.push_back(box);
+    const std::size_t few = 2 * few_of(sample.size());
+    return sample.size() > few && trimmed(sample, few).diagonal() >= small_share * mesh.box().diagonal();
+}
+
 }
 
 std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh) {
-    constexpr std::size_t min_few = 2, one_in = 100;
+    constexpr std::size_t many_faces = 10'000;
+    if (mesh.face_count() > many_faces && spreads(mesh))
+        return {};
     std::vector<Box> boxes;
     std::vector<std::size_t> faces;
     Box whole;
@@ -48,7 +67,7 @@ std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh) {
             whole.add(box.min);
             whole.add(box.max);
         }
-    const std::size_t few = std::max(min_few, boxes.size() / one_in);
+    const std::size_t few = few_of(boxes.size());
     if (boxes.size() < 4 * few)
         return {};
     const Box most = trimmed(boxes, few);

@@ -32,7 +32,7 @@ bool is_inside(const RaySurface& surface, const Vec3& point, const Vec3& directi
         // Faces may coincide, and a ray finds only one of them.
         surface.find_near(point + at * direction, offset, near);
         for (const Triangle& t : near) {
-            const Vec3d a(surface.position(t[0])), b(surface.position(t[1])), c(surface.position(t[2]));
+            const Vec3d a(surface.positions()[t[0]]), b(surface.positions()[t[1]]), c(surface.positions()[t[2]]);
             const Vec3d normal = glm::cross(b - a, c - a), d(direction), p(point);
             const auto side = [&](const Vec3d& u, const Vec3d& v) { return glm::dot(glm::cross(u - p, v - p), d); };
             const double s = side(a, b), along = glm::dot(normal, d);
@@ -51,7 +51,7 @@ bool is_inside(const RaySurface& surface, const Vec3& point, const Vec3& directi
 class ContactSearch {
   public:
     ContactSearch(const RaySurface& surface, float offset, const IsOwnFace& is_own)
-        : surface_(surface), offset_(offset), is_own_(is_own) {}
+        : surface_(surface), positions_(surface.positions()), offset_(offset), is_own_(is_own) {}
 
     void set_contact(std::size_t i, Surfel& surfel) {
         surface_.find_near(surfel.position, offset_, near_);
@@ -76,7 +76,7 @@ class ContactSearch {
   private:
     /// Whether the point is in the bounding box of the triangle, grown by the offset.
     bool may_touch(const Triangle& t, const Vec3& p) const {
-        const Vec3 a = surface_.position(t[0]), b = surface_.position(t[1]), c = surface_.position(t[2]);
+        const Vec3 a = positions_[t[0]], b = positions_[t[1]], c = positions_[t[2]];
         const Vec3 low = glm::min(glm::min(a, b), c) - offset_, high = glm::max(glm::max(a, b), c) + offset_;
         return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
     }
@@ -107,7 +107,7 @@ class ContactSearch {
     bool add_face(const Triangle& t, const Surfel& surfel, std::vector<NearFace>& faces) const {
         NearFace face;
         for (std::size_t k = 0; k < 3; ++k)
-            face.corners[k] = Vec3d(surface_.position(t[k])) - Vec3d(surfel.position);
+            face.corners[k] = Vec3d(positions_[t[k]]) - Vec3d(surfel.position);
         const Vec3d cross = glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
         const double length = glm::length(cross);
         if (length == 0.0)
@@ -126,6 +126,7 @@ class ContactSearch {
     }
 
     const RaySurface& surface_;
+    const Vec3* positions_;
     float offset_;
     const IsOwnFace& is_own_;
     std::vector<Triangle> near_, own_, others_;
