@@ -159,8 +159,8 @@ class BakeJob {
         if (!verb_.weld || mesh_.format == "STL")
             return bake(mesh_, options);
         Mesh mesh = mesh_;
-        if (options.normals == NormalSource::area)
-            mesh.normals.clear(); // these would keep vertices apart
+        if (options.normals == NormalSource::angle || options.normals == NormalSource::area)
+            mesh.normals.clear(); // unused, but different ones would keep vertices apart
         const JoinedMesh joined = welded(mesh, *verb_.weld);
         mesh_.warnings = joined.mesh.warnings;
         Baked baked = bake(joined.mesh, options);

@@ -1,9 +1,11 @@
+#include "baked.h"
 #include "program.h"
 
 #include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/read.h"
 
 #include <array>
+#include <cmath>
 #include <set>
 
 namespace alcove::test {
@@ -214,6 +216,25 @@ TEST_F(BakeVerb, WeldJoinsVerticesButKeepsThemInTheOutput) {
     EXPECT_EQ(a.corners, b.corners);
     expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "inf"}, usage, {"--weld", "finite"});
     expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "2vx"}, usage, {"--weld", "0.2 (scene units)"});
+}
+
+/// The normals of the file differ where vertices coincide, so they must not keep the vertices apart if they are unused.
+TEST_F(BakeVerb, WeldJoinsVerticesWhoseNormalsAreComputed) {
+    // Two faces of a valley of 90 degrees, each with vertices and a normal of its own.
+    write("valley.obj", "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 0 0\nv 0 0 1\nv 0 1 1\nv 0 1 0\n"
+                        "vn 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//1 4//1\nf 5//2 8//2 7//2 6//2\n");
+    for (const char* normals : {"angle", "area"}) {
+        const Outcome outcome = run({"bake", "valley.obj", "-o", "a.ply", "--weld", "1e-5", "--normals", normals,
+                                     "--method", "exact", "--rays", "1024", "--radius", "0.01"});
+        ASSERT_EQ(outcome.code, done) << outcome.err;
+        // Around the mean normal, the quadrant has √½ of the sky; at the end of the valley, half of the sky is open.
+        // Apart, each vertex would have half of the sky on that side: 0.75.
+        const std::vector<float> ao = read_baked(folder_ / "work/a.ply").ao;
+        ASSERT_EQ(ao.size(), 8u);
+        EXPECT_EQ(ao[0], ao[4]) << normals;
+        EXPECT_NEAR(ao[0], 0.5 * (1.0 + std::sqrt(0.5)), 0.02) << normals;
+        EXPECT_NEAR(ao[2], 1.0f, 0.01f) << normals;
+    }
 }
 
 TEST_F(BakeVerb, WeldMakesTheVerticesOfAnStl) {

@@ -54,10 +54,7 @@ void check_distance(GridStack grid, const PreparedMesh& prepared, std::vector<st
     grid.levels.resize(1);
     const LevelStack field(grid);
     const Mesh& mesh = prepared.mesh;
-    std::vector<bool> used(mesh.vertex_count());
-    for (const Triangle& triangle : prepared.triangles)
-        for (const std::uint32_t corner : triangle)
-            used[corner] = true;
+    const std::vector<std::uint8_t> used = mesh.used_vertices();
     std::size_t count = 0, off = 0;
     for (std::size_t v = 0; v < used.size(); ++v)
         if (used[v] && is_finite(mesh.positions[v])) {
@@ -177,11 +174,10 @@ void warn_of_offset(const PreparedMesh& prepared, std::vector<std::string>& warn
     constexpr float noticeable = 0.02f;
     const float offset = ray_offset(prepared.radius);
     if (offset > noticeable * prepared.radius)
-        warnings.push_back(
-            fmt::format("the radius is only {:.2g} of the diagonal: rays have to start {:.2g} of the radius above the "
-                        "surface, which "
-                        "brightens creases; use a larger radius, or bake the parts of the scene one at a time",
-                        prepared.radius, offset / prepared.radius));
+        warnings.push_back(fmt::format(
+            "the radius is only {:.2g} of the diagonal: rays have to start {:.2g} of the radius above the "
+            "surface, which brightens creases; use a larger radius, or bake the parts of the scene one at a time",
+            prepared.radius, offset / prepared.radius));
 }
 
 /// Lengths in percent of the diagonal make no sense if a few faces determine it.
@@ -319,7 +315,12 @@ std::string GridSummary::text() const {
 
 Baked bake(const Mesh& mesh, const BakeOptions& options) {
     const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); };
-    return bake_surfels(mesh, options, {"vertices", true, options.self, surfels, uses_vertex});
+    return bake_surfels(mesh, options,
+                        {.name = "vertices",
+                         .of_vertices = true,
+                         .by_parts = options.self,
+                         .surfels = surfels,
+                         .is_own_face = uses_vertex});
 }
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
@@ -332,7 +333,9 @@ Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOpt
             return std::find(face.begin(), face.end(), corner) != face.end();
         });
     };
-    return bake_surfels(mesh, options, {"points", false, false, surfels, is_own_face});
+    return bake_surfels(
+        mesh, options,
+        {.name = "points", .of_vertices = false, .by_parts = false, .surfels = surfels, .is_own_face = is_own_face});
 }
 
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
