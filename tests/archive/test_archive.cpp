@@ -1,5 +1,6 @@
 // Bakes every mesh of the archive, compares the output with the input and prints a line for each.
 #include "off_oracle.h"
+#include "scratch_folder.h"
 
 #include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
@@ -17,7 +18,6 @@
 #include <fmt/format.h>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -44,12 +44,8 @@ std::vector<std::string> archive() {
 
 class Archive : public testing::TestWithParam<std::string> {
   protected:
-    ~Archive() override {
-        std::error_code ignored;
-        fs::remove(baked_, ignored);
-    }
-
-    fs::path baked_ = fs::temp_directory_path() / fmt::format("alcove-archive-{}.ply", ::getpid());
+    const ScratchFolder folder_;
+    const fs::path baked_ = folder_ / "baked.ply";
 };
 
 /// Whether the file declares no faces, only points.

@@ -115,7 +115,7 @@ TEST_F(Files, OutputsOfOtherKindsAreRefusedAndStay) {
     expect(refusal_of_output("far"), "far: is a link to no/such/folder/file, which does not exist");
     EXPECT_EQ(std::filesystem::read_symlink(path("dangling")), "missing");
     EXPECT_FALSE(std::filesystem::exists(path("missing")));
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 6);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("")), {}), 6);
 }
 
 /// A chain of links, the last of which is in another folder.

@@ -15,14 +15,6 @@
 #include <unistd.h>
 
 namespace alcove::test {
-namespace {
-
-std::string contents(const std::filesystem::path& file) {
-    std::ifstream input(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(input), {}};
-}
-
-}
 
 const char* const cube_off = "OFF\n8 6 0\n"
                              "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
@@ -30,17 +22,6 @@ const char* const cube_off = "OFF\n8 6 0\n"
 
 std::string real_mesh(const std::string& name) {
     return std::string(ALCOVE_REAL_MESHES) + "/" + name;
-}
-
-ProgramTest::ProgramTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "alcove-cli-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-    std::filesystem::create_directory(folder_ / "work");
-}
-
-ProgramTest::~ProgramTest() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
 }
 
 Outcome ProgramTest::run(std::vector<std::string> arguments) const {
@@ -104,8 +85,8 @@ pid_t ProgramTest::start(std::vector<std::string> arguments) const {
 Outcome ProgramTest::finish(pid_t child) const {
     int status = 0;
     ::waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), contents(folder_ / "out"),
-            contents(folder_ / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), alcove::bytes_of(folder_ / "out"),
+            alcove::bytes_of(folder_ / "err")};
 }
 
 void ProgramTest::expect_refusal(const std::vector<std::string>& arguments, int code,
@@ -130,7 +111,7 @@ std::string ProgramTest::write(const std::string& name, std::string_view bytes) 
 }
 
 std::string ProgramTest::bytes_of(const std::string& name) const {
-    return contents(folder_ / "work" / name);
+    return alcove::bytes_of(folder_ / "work" / name);
 }
 
 std::vector<std::string> ProgramTest::files() const {

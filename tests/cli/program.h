@@ -1,6 +1,8 @@
 /// Runs the built program as users do: in its own process and its own folder.
 #pragma once
 
+#include "scratch_folder.h"
+
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
@@ -22,8 +24,7 @@ struct Outcome {
 /// Each test runs the program in a new folder, removed at the end.
 class ProgramTest : public testing::Test {
   protected:
-    ProgramTest();
-    ~ProgramTest() override;
+    ProgramTest() { std::filesystem::create_directory(folder_ / "work"); }
 
     /// Runs the program with stdin closed and stdout and stderr not terminals. File permissions apply even to root.
     Outcome run(std::vector<std::string> arguments) const;
@@ -42,7 +43,7 @@ class ProgramTest : public testing::Test {
     std::string bytes_of(const std::string& name) const;
     std::vector<std::string> files() const; ///< of the folder, sorted
 
-    std::filesystem::path folder_;
+    const ScratchFolder folder_;
     std::size_t max_memory_ = 0; ///< bytes of address space for the program; 0: no limit
     std::size_t max_file_size_ =
         0; ///< bytes that the program may write to a file, to simulate a full disk; 0: no limit

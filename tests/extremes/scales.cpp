@@ -3,9 +3,9 @@
 
 #include "alcove/mesh/read.h"
 
-#include <fmt/format.h>
+#include "scratch_folder.h"
 
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,8 +15,8 @@ namespace {
 
 /// Writes a mesh to a file with that extension, with all digits, and reads it back.
 Mesh through_file(const Mesh& mesh, const std::string& extension) {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / fmt::format("alcove-extreme-{}{}", ::getpid(), extension);
+    const ScratchFolder folder;
+    const std::filesystem::path file = folder / ("mesh" + extension);
     {
         std::ofstream text(file);
         if (extension == ".off")
@@ -36,9 +36,7 @@ Mesh through_file(const Mesh& mesh, const std::string& extension) {
             text << '\n';
         }
     }
-    Mesh read = read_mesh(file);
-    std::filesystem::remove(file);
-    return read;
+    return read_mesh(file);
 }
 
 Mesh scaled(Mesh mesh, double factor) {

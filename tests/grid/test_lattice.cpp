@@ -4,6 +4,7 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/vdb/vdb_file.h"
+#include "scratch_folder.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <random>
 
 namespace alcove {
 namespace {
@@ -37,8 +37,8 @@ GridStack on_lattice(const Mesh& mesh, const Lattice& lattice, float radius = 0.
 
 /// The levels as OpenVDB reads them from a file.
 std::vector<FloatGrid::Ptr> written(const GridStack& stack) {
-    const auto path =
-        std::filesystem::temp_directory_path() / ("alcove_lattice_" + std::to_string(std::random_device{}()) + ".vdb");
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder / "grid.vdb";
     write_grids(stack, path);
     openvdb::io::File file(path.string());
     file.open(/*delayLoad=*/false);
@@ -47,7 +47,6 @@ std::vector<FloatGrid::Ptr> written(const GridStack& stack) {
     for (const auto& grid : *grids)
         levels.push_back(openvdb::gridPtrCast<FloatGrid>(grid));
     file.close();
-    std::filesystem::remove(path);
     return levels;
 }
 
@@ -122,12 +121,11 @@ TEST(LatticeOfGrids, FieldsFarFromItsOriginKeepTheirPrecision) {
 
 TEST(LatticeOfGrids, AStackComesBackToTheBit) {
     const GridStack stack = on_lattice(box_at({5, 6, 7}, {1, 2, 1}), {0.1, {0.03, 0, 0}});
-    const auto path =
-        std::filesystem::temp_directory_path() / ("alcove_lattice_" + std::to_string(std::random_device{}()) + ".vdb");
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder / "grid.vdb";
     write_grids(stack, path);
     const GridStack back = read_grids(path);
     const Lattice lattice = read_lattice(path);
-    std::filesystem::remove(path);
     ASSERT_TRUE(back.lattice);
     EXPECT_EQ(back.lattice->voxel, 0.1);
     EXPECT_EQ(lattice.voxel, 0.1);

@@ -7,6 +7,7 @@
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/vdb/vdb_file.h"
+#include "scratch_folder.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
@@ -31,14 +32,12 @@ GridStack foreign_sphere(double radius, const Vec3d& center, double voxel, float
         static_cast<float>(radius), openvdb::Vec3f(from_origin.x, from_origin.y, from_origin.z),
         static_cast<float>(voxel), half_width);
     grid->transform().postTranslate({origin.x, origin.y, origin.z});
-    const auto path = std::filesystem::temp_directory_path() /
-                      ("alcove_mesh_grid_" + std::to_string(std::random_device{}()) + ".vdb");
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder / "grid.vdb";
     openvdb::io::File file(path.string());
     file.write(openvdb::GridPtrVec{grid});
     file.close();
-    GridStack stack = read_grids(path);
-    std::filesystem::remove(path);
-    return stack;
+    return read_grids(path);
 }
 
 void expect_sphere(const Mesh& mesh, double radius, const Vec3d& center, double voxel) {

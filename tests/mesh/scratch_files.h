@@ -4,26 +4,18 @@
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/write.h"
 
+#include "scratch_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 
 class ScratchFiles : public testing::Test {
   protected:
-    ScratchFiles() {
-        std::string name = (std::filesystem::temp_directory_path() / "alcove-test-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~ScratchFiles() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-
     std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
     std::filesystem::path write(const std::string& name, std::string_view bytes) const {
@@ -31,10 +23,7 @@ class ScratchFiles : public testing::Test {
         output.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         return path(name);
     }
-    std::string bytes_of(const std::string& name) const {
-        std::ifstream input(path(name), std::ios::binary);
-        return {std::istreambuf_iterator<char>(input), {}};
-    }
+    std::string bytes_of(const std::string& name) const { return alcove::bytes_of(path(name)); }
     alcove::Mesh read(const std::string& name, std::string_view bytes) const {
         return alcove::read_mesh(write(name, bytes));
     }
@@ -49,7 +38,7 @@ class ScratchFiles : public testing::Test {
         return bytes.substr(0, bytes.size() - rows_of(name).size());
     }
 
-    std::filesystem::path folder_;
+    const alcove::ScratchFolder folder_;
 };
 
 /// The concatenated bytes of values in the order of this machine (little endian).

@@ -188,8 +188,8 @@ TEST(Staging, ATurnedBallIsAsLargeAsBefore) {
 
 /// A soft shadow depends on distances up to t/sharpness. If these are cut off, open ground is dark.
 TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
-    std::filesystem::create_directories(std::filesystem::temp_directory_path() / "alcove_reach");
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "alcove_reach/ball.off";
+    const ScratchFolder folder;
+    const std::filesystem::path file = folder / "ball.off";
     {
         std::ofstream off(file);
         const Mesh ball = sphere_mesh(3);
@@ -209,24 +209,21 @@ TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
     EXPECT_NEAR(distance_at(2.2), 1.2, 0.05); // voxels are coarse a third of the diagonal away
     scene.light.casts_shadow = false;
     EXPECT_LT(distance_at(1.7), 0.68); // a lower bound only, because no larger reach is needed
-    std::filesystem::remove_all(file.parent_path());
 }
 
 /// A folder with a tetrahedron, and scenes of many of it in a row.
 class ManyObjects : public testing::Test {
   protected:
     ManyObjects() {
-        std::filesystem::create_directories(folder_);
         std::ofstream(folder_ / "t.off")
             << "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
     }
-    ~ManyObjects() override { std::filesystem::remove_all(folder_); }
 
     Scene scene(int count, double shrinking, const std::string& voxel) const {
         Scene scene;
         scene.occlusion.choose("none");
         for (int i = 0; i < count; ++i) {
-            MeshShape mesh{.file = folder_ / (i % 2 == 0 ? "t.off" : "../alcove_many/t.off")};
+            MeshShape mesh{.file = folder_ / (i % 2 == 0 ? "t.off" : "./t.off")};
             if (!voxel.empty())
                 mesh.voxel = Length(voxel);
             Placement placement{.translation = {2.0 * i, 0.0, 0.0}, .scale = 1.0 - shrinking * i};
@@ -235,7 +232,7 @@ class ManyObjects : public testing::Test {
         return scene;
     }
 
-    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "alcove_many";
+    const ScratchFolder folder_;
 };
 
 TEST_F(ManyObjects, OfOneFileShareItsMeshAndGrid) {
@@ -276,7 +273,7 @@ TEST_F(ManyObjects, ThatNeedTooMuchMemoryAreRefusedBeforeTheyAreBuilt) {
     // Each size needs a grid of its own.
     const std::string message = refusal(scene(4000, 1e-4, "0.1%"));
     EXPECT_NE(message.find("the scene needs about"), std::string::npos) << message;
-    EXPECT_NE(message.find("alcove_many/t.off needs most"), std::string::npos) << message;
+    EXPECT_NE(message.find("t.off needs most"), std::string::npos) << message;
 }
 
 TEST_F(ManyObjects, GetCoarserVoxelsWhereFinerOnesDoNotFit) {

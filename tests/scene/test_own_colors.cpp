@@ -43,9 +43,6 @@ std::string nothing(int) {
 /// Files in a temporary folder, drawn from the front under a white sky that lights every point alike.
 class OwnColorsPicture : public testing::Test {
   protected:
-    OwnColorsPicture() { std::filesystem::create_directories(folder_); }
-    ~OwnColorsPicture() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         std::filesystem::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -94,9 +91,7 @@ class OwnColorsPicture : public testing::Test {
             EXPECT_NEAR(double(color[c]), expected[c], 2e-3) << "channel " << c;
     }
 
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() /
-        (std::string("alcove_colors_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const ScratchFolder folder_;
 };
 
 TEST_F(OwnColorsPicture, VertexColoursAreShownAsTheLightTheyEncode) {

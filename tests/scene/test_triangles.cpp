@@ -28,13 +28,11 @@ Drawn draw(const Scene& scene, PassSet passes) {
 class BallFile : public testing::Test {
   protected:
     BallFile() { write("ball.ply", 2); }
-    ~BallFile() override { std::filesystem::remove_all(folder_); }
 
     void write(const char* name, int level) const {
         Mesh mesh = sphere_mesh(level);
         for (const Vec3d& p : mesh.positions)
             mesh.vertex_colors.push_back(p.y > 0.0 ? Color{0, 0, 0, 255} : Color{255, 255, 255, 255});
-        std::filesystem::create_directories(folder_);
         std::ofstream ply(folder_ / name);
         ply << "ply\nformat ascii 1.0\nelement vertex " << mesh.positions.size()
             << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar "
@@ -56,9 +54,7 @@ class BallFile : public testing::Test {
                           (folder_ / "ball.ply").string() + "\"\n" + more);
     }
 
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() /
-        (std::string("alcove_ball_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    const ScratchFolder folder_;
 };
 
 TEST_F(BallFile, NormalsOfTheMeshAreSmoothAndThoseOfTheFieldAreNot) {

@@ -6,24 +6,20 @@
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/vdb_grid.h"
 
+#include "scratch_folder.h"
+
 #include <gtest/gtest.h>
 #include <openvdb/io/File.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <filesystem>
-#include <random>
 #include <string>
 
 namespace alcove::test {
 
 class GridFile : public testing::Test {
   protected:
-    GridFile()
-        : folder_(std::filesystem::temp_directory_path() / ("alcove_grid_" + std::to_string(std::random_device{}()))) {
-        std::filesystem::create_directory(folder_);
-        openvdb::initialize();
-    }
-    ~GridFile() override { std::filesystem::remove_all(folder_); }
+    GridFile() { openvdb::initialize(); }
 
     std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
@@ -57,7 +53,7 @@ class GridFile : public testing::Test {
     }
 
   private:
-    std::filesystem::path folder_;
+    ScratchFolder folder_;
 };
 
 }

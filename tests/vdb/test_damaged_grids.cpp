@@ -4,12 +4,14 @@
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
+#include "scratch_folder.h"
 #include "shapes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <openvdb/io/File.h>
 #include <openvdb/tools/LevelSetSphere.h>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -96,13 +98,7 @@ struct Outcomes {
 
 class DamagedGrids : public testing::TestWithParam<Compression> {
   protected:
-    DamagedGrids()
-        : folder_(std::filesystem::temp_directory_path() /
-                  ("alcove_damaged_" + std::to_string(std::random_device{}()))) {
-        std::filesystem::create_directory(folder_);
-        openvdb::initialize();
-    }
-    ~DamagedGrids() override { std::filesystem::remove_all(folder_); }
+    DamagedGrids() { openvdb::initialize(); }
 
     std::filesystem::path whole() const { return folder_ / "whole.vdb"; }
     std::filesystem::path damaged() const { return folder_ / "damaged.vdb"; }
@@ -111,10 +107,6 @@ class DamagedGrids : public testing::TestWithParam<Compression> {
         io::File file(whole().string());
         file.setCompression(GetParam().flags);
         file.write(grids);
-    }
-    static std::string bytes_of(const std::filesystem::path& file) {
-        std::ifstream in(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
     }
 
     /// Reads a damaged file and counts the outcome. Taking more than five seconds ends the program.
@@ -174,7 +166,7 @@ class DamagedGrids : public testing::TestWithParam<Compression> {
     }
 
   private:
-    std::filesystem::path folder_;
+    ScratchFolder folder_;
 };
 
 TEST_P(DamagedGrids, OfOursAreRefusedOrRight) {

@@ -1,4 +1,4 @@
-/// A temporary folder for one test.
+/// A temporary folder for one test. Tests run in parallel, so each has its own.
 #pragma once
 
 #include <cstdlib>
@@ -13,10 +13,13 @@ namespace alcove {
 class ScratchFolder {
   public:
     ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "alcove-render-XXXXXX").string();
+        std::string name = (std::filesystem::temp_directory_path() / "alcove-test-XXXXXX").string();
         path_ = ::mkdtemp(name.data());
     }
-    ~ScratchFolder() { std::filesystem::remove_all(path_); }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
 
