@@ -165,6 +165,10 @@ const Vec3* RaySurface::positions() const {
     return scene_->vertices;
 }
 
+std::span<const TrianglePair> RaySurface::pairs() const {
+    return scene_->pairs;
+}
+
 void RaySurface::find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const {
     struct Search {
         const std::vector<TrianglePair>& pairs;

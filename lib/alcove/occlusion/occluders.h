@@ -3,6 +3,7 @@
 
 #include "alcove/field/field.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -47,6 +48,8 @@ class RaySurface {
     void find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const;
     /// The positions that the constructor got; null if no triangle can be hit.
     const Vec3* positions() const;
+    /// The triangles that find_near() searches, as corners 0, 1, 3 and 2, 3, 1; the second may be degenerate.
+    std::span<const std::array<std::uint32_t, 4>> pairs() const;
 
   private:
     struct Scene;

@@ -3,6 +3,7 @@
 #include "alcove/base/detail/closest_point.h"
 #include "alcove/base/parallel.h"
 #include "alcove/field/detail/trace.h"
+#include "alcove/occlusion/detail/touched_surfels.h"
 #include "alcove/occlusion/detail/touching_faces.h"
 #include "alcove/occlusion/estimator.h"
 
@@ -137,7 +138,10 @@ class ContactSearch {
 
 void find_contacts(std::span<Surfel> surfels, const RaySurface& surface, float offset, const IsOwnFace& is_own) {
     constexpr std::size_t grain = 1024;
-    const std::vector<std::uint32_t> order = spatial_order(surfels);
+    std::optional<std::vector<std::uint32_t>> touched;
+    if (is_own)
+        touched = find_touched(surfels, surface, offset, is_own);
+    const std::vector<std::uint32_t> order = touched ? std::move(*touched) : spatial_order(surfels);
     parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
         ContactSearch search(surface, offset, is_own);
         for (std::size_t at = begin; at < end; ++at)
