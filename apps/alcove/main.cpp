@@ -3,6 +3,7 @@
 #include "ending.h"
 #include "options.h"
 
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 
@@ -26,6 +27,7 @@ int complain(ExitCode code, const std::string& message) {
 }
 
 int main(int argc, char** argv) {
+    alcove::keep_freed_memory();
     alcove::cli::end_cleanly();
     CLI::App program{"Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
     program.set_version_flag("--version", "alcove " ALCOVE_VERSION);

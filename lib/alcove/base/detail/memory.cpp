@@ -8,6 +8,7 @@
 #include <string_view>
 
 #ifdef __linux__
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 #endif
@@ -20,6 +21,13 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
     constexpr std::size_t page = std::size_t(1) << 21;
     if (std::align(page, page, begin, bytes) != nullptr)
         ::madvise(begin, bytes / page * page, MADV_HUGEPAGE);
+}
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    ::mallopt(M_MMAP_MAX, 0); // arrays of their own mapping would be returned
+    ::mallopt(M_TRIM_THRESHOLD, -1);
+#endif
 }
 
 std::size_t peak_resident_bytes() {
@@ -46,6 +54,8 @@ double system_memory() {
 #else
 
 void prefer_huge_pages(void*, std::size_t) {}
+
+void keep_freed_memory() {}
 
 std::size_t peak_resident_bytes() {
     return 0;
