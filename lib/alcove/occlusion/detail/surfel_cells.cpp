@@ -125,7 +125,7 @@ std::uint32_t SurfelCells::find_or_add(const Cell& cell) {
                     blocks_[slot_of(block.key)] = block;
             slot = slot_of(key);
         }
-        blocks_[slot] = {key, block_count_ - 1};
+        blocks_[slot] = {key, static_cast<std::uint32_t>(block_count_ - 1)};
         begins_.resize(cells_per_block * block_count_ + 1);
     }
     return blocks_[slot].index;

@@ -73,7 +73,7 @@ class SurfelCells {
     Vec3 low_, last_; ///< the corner of cell 0; the last cell along each axis
     float scale_;     ///< cells per length
     std::vector<Block> blocks_;
-    std::uint32_t block_count_ = 0;
+    std::size_t block_count_ = 0;
     std::vector<std::uint32_t> begins_{0}; ///< of the cells in points_, and their end
     Points points_;
 };
