@@ -8,6 +8,7 @@
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
+#include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/detail/tessellate.h"
 #include "alcove/mesh/read.h"
 #include "alcove/vdb/vdb_file.h"
@@ -31,7 +32,6 @@ struct BakeVerb {
     std::string output, grid, write_grid, tessellate;
     std::optional<Vec3d> up;
     std::optional<Quality> quality;
-    std::optional<Length> weld;
     float adaptivity = 0.0f;
     bool strict = false;
 };
@@ -65,7 +65,7 @@ void check_usage(const BakeVerb& verb) {
         throw UsageError("--adaptivity is for grids: " + verb.inputs.front() + " is a mesh already");
     if (meshed && !verb.tessellate.empty())
         throw UsageError("--tessellate is for meshes: a .vdb input is meshed with faces of one voxel");
-    if (meshed && verb.weld)
+    if (meshed && verb.bake.weld)
         throw UsageError("--weld is for meshes: a .vdb input has no vertices");
     if (verb.inputs.size() > 1 && (!verb.grid.empty() || !verb.write_grid.empty()))
         throw UsageError("--grid and --write-grid take one input: bake the inputs one at a time");
@@ -113,7 +113,7 @@ class BakeJob {
         Stopwatch watch;
         read(options);
         seconds_["read"] = watch.lap();
-        const Baked baked = bake_welded(options);
+        const Baked baked = bake(mesh_, options);
         seconds_["grid"] = baked.seconds.grid;
         seconds_["occlusion"] = baked.seconds.occlusion;
         seconds_["pilot"] = baked.seconds.pilot;
@@ -138,8 +138,8 @@ class BakeJob {
             mesh_ = surface_of(grid_, file_.input, verb_.adaptivity);
         } else {
             mesh_ = read_mesh(file_.input);
-            if (verb_.weld && mesh_.format == "STL") // its vertices come from joining anyway
-                mesh_ = welded(mesh_, *verb_.weld).mesh;
+            if (options.weld && mesh_.format == "STL") // its vertices come from joining anyway
+                mesh_ = join_vertices(mesh_, *std::exchange(options.weld, std::nullopt)).mesh;
             if (!verb_.grid.empty())
                 grid_ = read_grids(verb_.grid, {verb_.grid_names});
         }
@@ -151,30 +151,6 @@ class BakeJob {
             const double diagonal = frame_of(mesh_.box()).diagonal;
             mesh_ = tessellate(mesh_, {.longest = Length(verb_.tessellate).to_unit(diagonal) * diagonal});
         }
-    }
-
-    /// Bakes the mesh with its vertices joined if --weld asks for it, and gives each of its vertices the values of the
-    /// joined one.
-    Baked bake_welded(const BakeOptions& options) {
-        if (!verb_.weld || mesh_.format == "STL")
-            return bake(mesh_, options);
-        Mesh mesh = mesh_;
-        if (options.normals == NormalSource::angle || options.normals == NormalSource::area)
-            mesh.normals.clear(); // unused, but different ones would keep vertices apart
-        const JoinedMesh joined = welded(mesh, *verb_.weld);
-        mesh_.warnings = joined.mesh.warnings;
-        Baked baked = bake(joined.mesh, options);
-        for (const ChannelInfo& channel : channels) {
-            std::vector<float> values;
-            if (baked.attributes.has(channel.channel))
-                for (const std::uint32_t v : joined.vertex_of)
-                    values.insert(values.end(),
-                                  baked[channel.channel].begin() + static_cast<std::ptrdiff_t>(v * channel.components),
-                                  baked[channel.channel].begin() +
-                                      static_cast<std::ptrdiff_t>((v + 1) * channel.components));
-            baked.values[channel.channel] = std::move(values);
-        }
-        return baked;
     }
 
     void write(const Baked& baked) {
@@ -306,7 +282,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
         "areas; auto: file if there are any, else angle")
         ->type_name("SOURCE")
         ->default_str("auto");
-    add_weld_option(app, verb.weld);
+    add_weld_option(app, verb.bake.weld);
     app.add_option("--tessellate", verb.tessellate,
                    "Split faces first, so that ao can vary across them: edges longer than LEN, or auto: wherever ao "
                    "differs from its interpolation by more than the error")

@@ -2,6 +2,7 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/mesh/detail/outlier_faces.h"
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/formats/ply/ply_document.h"
@@ -79,7 +80,7 @@ void add_obj(Facts& facts, const ObjDocument& document) {
     facts.add("other_lines", other, lines);
 }
 
-void add_diagnosis(Facts& facts, const Diagnosis& d) {
+void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
     const std::pair<const char*, std::size_t> counts[] = {{"edges", d.edges},
                                                           {"open_edges", d.open_edges},
                                                           {"boundary_edges", d.boundary_edges},
@@ -112,7 +113,10 @@ void add_diagnosis(Facts& facts, const Diagnosis& d) {
                                 d.closed_components == d.components ? "all" : grouped(d.closed_components),
                                 d.signed_volume)
                   : fmt::format("{}, none of them closed", grouped(d.components)));
-    facts.add("findings", describe(d), describe(d));
+    std::vector<std::string> findings = describe(d);
+    if (const std::optional<OutlierFaces> outliers = find_outlier_faces(mesh))
+        findings.push_back(outliers->text(mesh) + ": remove them, or give lengths in scene units");
+    facts.add("findings", findings, findings);
 }
 
 /// As a bake decides it.
@@ -146,7 +150,7 @@ Facts facts_of_mesh(const Mesh& mesh) {
         add_ply(facts, *ply);
     if (const auto* obj = dynamic_cast<const ObjDocument*>(mesh.source.get()))
         add_obj(facts, *obj);
-    add_diagnosis(facts, diagnosis);
+    add_diagnosis(facts, diagnosis, mesh);
     add_sign(facts, mesh);
     facts.add("warnings", mesh.warnings, mesh.warnings);
     return facts;

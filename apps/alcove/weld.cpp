@@ -2,6 +2,7 @@
 
 #include "options.h"
 
+#include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/read.h"
 
 #include <CLI/CLI.hpp>
@@ -29,19 +30,11 @@ void add_weld_option(CLI::App& verb, std::optional<Length>& weld) {
         ->type_name("LEN");
 }
 
-JoinedMesh welded(const Mesh& mesh, const Length& weld) {
-    try {
-        return join_vertices(mesh, weld);
-    } catch (const InputError& error) {
-        throw UsageError(mesh.name + ": --weld: " + error.what());
-    }
-}
-
 Mesh read_welded(const std::string& file, const std::optional<Length>& weld) {
     Mesh mesh = read_mesh(file);
     if (!weld)
         return mesh;
-    Mesh joined = welded(mesh, *weld).mesh;
+    Mesh joined = join_vertices(mesh, *weld).mesh;
     joined.source = mesh.source;
     return joined;
 }

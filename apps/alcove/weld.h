@@ -1,8 +1,7 @@
 /// The option --weld.
 #pragma once
 
-#include "alcove/base/types.h"
-#include "alcove/mesh/detail/join.h"
+#include "alcove/mesh/mesh.h"
 
 #include <optional>
 #include <string>
@@ -15,9 +14,6 @@ namespace alcove::cli {
 
 /// Adds --weld (empty: not given).
 void add_weld_option(CLI::App& verb, std::optional<Length>& weld);
-
-/// join_vertices(). \throw UsageError for a length that makes no sense with the mesh.
-JoinedMesh welded(const Mesh& mesh, const Length& weld);
 
 /// read_mesh(), with its vertices joined if `weld` is set. Not to be written: `source` is still that of the file.
 Mesh read_welded(const std::string& file, const std::optional<Length>& weld);

@@ -210,6 +210,22 @@ Mesh box_over_quad() {
     return mesh;
 }
 
+TEST(Bake, JoinedVerticesShareTheirValues) {
+    const Mesh box = box_mesh({1, 1, 1}, 2);
+    Mesh soup; // a vertex of its own for each corner of a face
+    for (const std::uint32_t corner : box.corners)
+        soup.positions.push_back(box.positions[corner]);
+    for (std::uint32_t v = 0; v < soup.positions.size(); v += 4)
+        soup.add_face(std::array{v, v + 1, v + 2, v + 3});
+    const BakeOptions options{.radius = "inf", .method = "exact", .ground = true, .weld = "1e-6"};
+    const Baked whole = bake(box, options), joined = bake(soup, options);
+    ASSERT_EQ(joined.ao().size(), soup.vertex_count());
+    for (std::size_t v = 0; v < soup.vertex_count(); ++v)
+        EXPECT_EQ(joined.ao()[v], whole.ao()[box.corners[v]]);
+    EXPECT_THROW(bake(soup, {.weld = "100"}), InputError); // joins all
+    EXPECT_THROW(bake(soup, {.weld = "1vx"}), InputError);
+}
+
 TEST(Bake, WarnsOfFacesTooLargeForWhatHappensBetweenTheirVertices) {
     const auto warnings = bake(box_over_quad(), {.radius = "1"}).warnings;
     ASSERT_EQ(warnings.size(), 1u);

@@ -1,6 +1,6 @@
 #include "alcove/bake/bake.h"
 
-#include "alcove/bake/detail/gap_warnings.h"
+#include "alcove/bake/detail/input_warnings.h"
 #include "alcove/bake/detail/options.h"
 #include "alcove/bake/detail/parts.h"
 #include "alcove/bake/detail/provenance.h"
@@ -9,7 +9,7 @@
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/voxelize.h"
-#include "alcove/mesh/detail/outlier_faces.h"
+#include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/detail/source.h"
 #include "alcove/mesh/triangulate.h"
 
@@ -33,10 +33,6 @@ struct PreparedMesh {
 
 std::string named(const Mesh& mesh, const std::string& message) {
     return mesh.name.empty() || message.starts_with(mesh.name) ? message : mesh.name + ": " + message;
-}
-
-bool uses_file_normals(const Mesh& mesh, NormalSource normals) {
-    return !mesh.normals.empty() && (normals == NormalSource::automatic || normals == NormalSource::file);
 }
 
 /// Newell's method (Tampieri 1992), which also works for non-planar polygons.
@@ -131,69 +127,6 @@ std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, std::span<co
     return surfels;
 }
 
-/// Normals of the file that point against their faces make everything dark.
-void warn_of_flipped_normals(const PreparedMesh& prepared, std::span<const Surfel> vertices,
-                             std::vector<std::string>& warnings) {
-    constexpr std::size_t most_faces = 4096;
-    const std::size_t stride = std::max<std::size_t>(prepared.triangles.size() / most_faces, 1);
-    std::size_t against = 0, compared = 0;
-    for (std::size_t i = 0; i < prepared.triangles.size(); i += stride) {
-        const Triangle& t = prepared.triangles[i];
-        const std::vector<Vec3d>& p = prepared.mesh.positions;
-        const Vec3 normal = unit_or_zero(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
-        for (const std::uint32_t v : t) {
-            const float cosine = glm::dot(normal, vertices[v].normal);
-            compared += cosine != 0.0f;
-            against += cosine < 0.0f;
-        }
-    }
-    if (2 * against > compared)
-        warnings.push_back(fmt::format("the normals of the file point to the back of the faces at {:.0f} % of the "
-                                       "vertices: use --normals angle, or flip them",
-                                       100.0 * static_cast<double>(against) / static_cast<double>(compared)));
-}
-
-void warn_of_normals(const PreparedMesh& prepared, std::span<const Surfel> vertices, bool of_file,
-                     std::vector<std::string>& warnings) {
-    for (std::string& warning : gap_warnings(prepared.mesh, prepared.triangles, vertices, of_file))
-        warnings.push_back(std::move(warning));
-    if (of_file)
-        warn_of_flipped_normals(prepared, vertices, warnings);
-}
-
-void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,
-                             std::vector<std::string>& warnings) {
-    const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
-    if (missing > 0)
-        warnings.push_back(fmt::format("{} of {} {} have no normal (no face uses them, or their faces cancel) and got "
-                                       "ao = 1",
-                                       grouped(static_cast<std::size_t>(missing)), grouped(surfels.size()), what));
-}
-
-void warn_of_offset(const PreparedMesh& prepared, std::vector<std::string>& warnings) {
-    constexpr float noticeable = 0.02f;
-    const float offset = ray_offset(prepared.radius);
-    if (offset > noticeable * prepared.radius)
-        warnings.push_back(fmt::format(
-            "the radius is only {:.2g} of the diagonal: rays have to start {:.2g} of the radius above the "
-            "surface, which brightens creases; use a larger radius, or bake the parts of the scene one at a time",
-            prepared.radius, offset / prepared.radius));
-}
-
-/// Lengths in percent of the diagonal make no sense if a few faces determine it.
-void warn_of_outliers(const PreparedMesh& prepared, const BakeOptions& options, std::vector<std::string>& warnings) {
-    if (options.radius.unit != Length::Unit::diagonal)
-        return;
-    if (const std::optional<OutlierFaces> outliers = find_outlier_faces(prepared.mesh)) {
-        const double rest = outliers->rest.diagonal();
-        warnings.push_back(fmt::format(
-            "{} of {} faces, such as face {}, make the diagonal of the bounding box {:.3g} instead of {:.3g}, so the "
-            "radius is {:.3g}: remove them, or give the radius in scene units, such as --radius {:.2g}",
-            grouped(outliers->count), grouped(prepared.mesh.face_count()), grouped(outliers->example + 1),
-            prepared.frame.diagonal, rest, prepared.radius * prepared.frame.diagonal, 0.1 * rest));
-    }
-}
-
 Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& prepared) {
     Baked baked;
     baked.values = std::move(result.values);
@@ -240,11 +173,8 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
                          prepared.voxelizing,
                          prepared.grid ? &*prepared.grid : nullptr};
         whole.is_own_face = source.is_own_face;
-        if (source.of_vertices)
-            warn_of_normals(prepared, whole.surfels, uses_file_normals(mesh, options.normals), warnings);
-        warn_of_missing_normals(whole.surfels, source.name, warnings);
-        warn_of_outliers(prepared, options, warnings);
-        warn_of_offset(prepared, warnings);
+        for (std::string& warning : input_warnings(whole, source.name, source.of_vertices, options))
+            warnings.push_back(std::move(warning));
         const double preparing = watch.lap();
         TargetResult result = source.by_parts ? bake_parts(whole, task, options.normals, surroundings, options.progress)
                                               : bake_target(whole, task, surroundings, options.progress);
@@ -261,6 +191,37 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
     } catch (const TimeLimitError& error) {
         throw TimeLimitError(named(mesh, error.what()));
     }
+}
+
+Baked bake_vertices(const Mesh& mesh, const BakeOptions& options) {
+    const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); };
+    return bake_surfels(mesh, options,
+                        {.name = "vertices",
+                         .of_vertices = true,
+                         .by_parts = options.self,
+                         .surfels = surfels,
+                         .is_own_face = uses_vertex});
+}
+
+/// Bakes the mesh with its vertices joined, and gives each of its own vertices the values of the joined one.
+Baked bake_joined(Mesh mesh, const BakeOptions& options) {
+    check(options);
+    if (options.normals == NormalSource::angle || options.normals == NormalSource::area)
+        mesh.normals.clear(); // unused, but different ones would keep vertices apart
+    mesh.warnings.clear();
+    const JoinedMesh joined = join_vertices(mesh, *options.weld);
+    Baked baked = bake_vertices(joined.mesh, options);
+    for (const ChannelInfo& channel : channels) {
+        std::vector<float> values;
+        if (baked.attributes.has(channel.channel))
+            for (const std::uint32_t v : joined.vertex_of) {
+                const auto first = baked[channel.channel].begin() + static_cast<std::ptrdiff_t>(v * channel.components);
+                values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(channel.components));
+            }
+        baked.values[channel.channel] = std::move(values);
+    }
+    baked.warnings.insert(baked.warnings.begin(), joined.mesh.warnings.begin(), joined.mesh.warnings.end());
+    return baked;
 }
 
 bool has_property(const Mesh& mesh, std::string_view name) {
@@ -314,13 +275,7 @@ std::string GridSummary::text() const {
 }
 
 Baked bake(const Mesh& mesh, const BakeOptions& options) {
-    const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_vertices(prepared, options.normals); };
-    return bake_surfels(mesh, options,
-                        {.name = "vertices",
-                         .of_vertices = true,
-                         .by_parts = options.self,
-                         .surfels = surfels,
-                         .is_own_face = uses_vertex});
+    return options.weld ? bake_joined(mesh, options) : bake_vertices(mesh, options);
 }
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {

@@ -63,6 +63,9 @@ struct BakeOptions {
 
     ChannelSet attributes = Channel::ao;
     NormalSource normals = NormalSource::automatic;
+    /// Joins vertices within this length before the bake, finite and not in voxels: closes what an exporter has rounded
+    /// apart. Each vertex gets the values of the joined one.
+    std::optional<Length> weld{};
     SignChoice sign = SignChoice::automatic;
     std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: chosen
     const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
@@ -148,7 +151,7 @@ struct SurfacePoint {
     std::uint32_t face = no_face;
 };
 
-/// Bakes points on or near a mesh, as above. `normals` and `self` have no effect. A point without a normal or with a
+/// Bakes points on or near a mesh, as above. `normals`, `weld` and `self` have no effect. A point without a normal or with a
 /// non-finite position gets ChannelInfo::missing (ao = 1). \throw as above, and InputError for a face index that is out
 /// of range.
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});

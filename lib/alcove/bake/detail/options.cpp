@@ -43,6 +43,8 @@ void check(const BakeOptions& options) {
             "--voxel defines the unit vx: give it as 0.2 (scene units) or 0.5%");
     require(!options.voxel || std::isfinite(options.voxel->value),
             "--voxel takes a finite length: write 0.2 (scene units) or 0.5%");
+    require(!options.weld || (options.weld->unit != Length::Unit::voxels && std::isfinite(options.weld->value)),
+            "--weld takes a finite length: write 0.2 (scene units) or 0.001%");
     require(options.radius.unit != Length::Unit::voxels || options.voxel || options.grid,
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
     require(!options.grid || (!options.voxel && options.sign == SignChoice::automatic),

@@ -19,17 +19,28 @@ std::vector<T> first_ones(const std::vector<T>& values, std::span<const std::uin
     return kept;
 }
 
+InputError refusal(const Mesh& mesh, const std::string& why) {
+    return InputError((mesh.name.empty() ? "" : mesh.name + ": ") + "--weld: " + why);
+}
+
 }
 
 JoinedMesh join_vertices(const Mesh& mesh, const Length& within) {
-    const double diagonal = frame_of(mesh.box()).diagonal;
-    const std::vector<std::uint32_t> first = weld(mesh.positions, double(within.to_unit(diagonal)) * diagonal);
+    const auto distance = [&] {
+        const double diagonal = frame_of(mesh.box()).diagonal;
+        try {
+            return double(within.to_unit(diagonal)) * diagonal;
+        } catch (const InputError& error) {
+            throw refusal(mesh, error.what());
+        }
+    }();
+    const std::vector<std::uint32_t> first = weld(mesh.positions, distance);
     JoinedMesh joined{mesh, std::vector<std::uint32_t>(first.size())};
     joined.mesh.source.reset();
     joined.mesh.attributes.clear();
     const SoundFaces before = sound_faces(mesh, weld(mesh.positions)), after = sound_faces(mesh, first);
     if (before.count() > 0 && after.count() == 0)
-        throw InputError("joins the corners of every face: use a smaller --weld");
+        throw refusal(mesh, "joins the corners of every face: use a smaller length");
     const std::size_t lost = after.collapsed - before.collapsed;
     if (lost > 0)
         joined.mesh.warnings.push_back(counted(lost, "face has", "faces have") +

@@ -1,5 +1,8 @@
 #include "alcove/mesh/detail/outlier_faces.h"
 
+#include "alcove/base/detail/messages.h"
+
+#include <fmt/format.h>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
@@ -89,6 +92,12 @@ std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh) {
     if (outliers.count == 0 || outliers.count > few || outliers.rest.diagonal() >= allowed)
         return {};
     return outliers;
+}
+
+std::string OutlierFaces::text(const Mesh& mesh) const {
+    return fmt::format(
+        "{} of {} faces, such as face {}, make the diagonal of the bounding box {:.3g} instead of {:.3g}",
+        grouped(count), grouped(mesh.face_count()), grouped(example + 1), mesh.box().diagonal(), rest.diagonal());
 }
 
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 namespace alcove {
 
@@ -12,6 +13,9 @@ struct OutlierFaces {
     std::size_t count;
     std::size_t example; ///< one of them
     Box rest;            ///< bounding box of all other faces
+
+    /// Such as "2 of 5,000 faces, such as face 17, make the diagonal of the bounding box 900 instead of 1.7".
+    std::string text(const Mesh& mesh) const;
 };
 
 /// Faces without which the diagonal of the bounding box is less than a tenth: at most one in a hundred, or two. Nothing

@@ -1,0 +1,84 @@
+#include "alcove/bake/detail/input_warnings.h"
+
+#include "alcove/bake/detail/gap_warnings.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/detail/outlier_faces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+/// Normals of the file that point against their faces make everything dark.
+void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>& warnings) {
+    constexpr std::size_t most_faces = 4096;
+    const std::size_t stride = std::max<std::size_t>(target.triangles.size() / most_faces, 1);
+    std::size_t against = 0, compared = 0;
+    for (std::size_t i = 0; i < target.triangles.size(); i += stride) {
+        const Triangle& t = target.triangles[i];
+        const std::vector<Vec3d>& p = target.mesh.positions;
+        const Vec3 normal = unit_or_zero(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+        for (const std::uint32_t v : t) {
+            const float cosine = glm::dot(normal, target.surfels[v].normal);
+            compared += cosine != 0.0f;
+            against += cosine < 0.0f;
+        }
+    }
+    if (2 * against > compared)
+        warnings.push_back(fmt::format("the normals of the file point to the back of the faces at {:.0f} % of the "
+                                       "vertices: use --normals angle, or flip them",
+                                       100.0 * static_cast<double>(against) / static_cast<double>(compared)));
+}
+
+void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,
+                             std::vector<std::string>& warnings) {
+    const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
+    if (missing > 0)
+        warnings.push_back(fmt::format("{} of {} {} have no normal (no face uses them, or their faces cancel) and got "
+                                       "ao = 1",
+                                       grouped(static_cast<std::size_t>(missing)), grouped(surfels.size()), what));
+}
+
+void warn_of_offset(const BakeTarget& target, std::vector<std::string>& warnings) {
+    constexpr float noticeable = 0.02f;
+    const float offset = ray_offset(target.radius);
+    if (offset > noticeable * target.radius)
+        warnings.push_back(fmt::format(
+            "the radius is only {:.2g} of the diagonal: rays have to start {:.2g} of the radius above the "
+            "surface, which brightens creases; use a larger radius, or bake the parts of the scene one at a time",
+            target.radius, offset / target.radius));
+}
+
+/// Lengths in percent of the diagonal make no sense if a few faces determine it.
+void warn_of_outliers(const BakeTarget& target, const Length& radius, std::vector<std::string>& warnings) {
+    if (radius.unit != Length::Unit::diagonal)
+        return;
+    if (const std::optional<OutlierFaces> outliers = find_outlier_faces(target.mesh)) {
+        warnings.push_back(fmt::format(
+            "{}, so the radius is {:.3g}: remove them, or give the radius in scene units, such as --radius {:.2g}",
+            outliers->text(target.mesh), target.radius * target.frame.diagonal, 0.1 * outliers->rest.diagonal()));
+    }
+}
+
+}
+
+std::vector<std::string> input_warnings(const BakeTarget& target, std::string_view name, bool of_vertices,
+                                        const BakeOptions& options) {
+    std::vector<std::string> warnings;
+    if (of_vertices) {
+        const bool of_file = !target.mesh.normals.empty() &&
+                             (options.normals == NormalSource::automatic || options.normals == NormalSource::file);
+        warnings = gap_warnings(target.mesh, target.triangles, target.surfels, of_file);
+        if (of_file)
+            warn_of_flipped_normals(target, warnings);
+    }
+    warn_of_missing_normals(target.surfels, name, warnings);
+    warn_of_outliers(target, options.radius, warnings);
+    warn_of_offset(target, warnings);
+    return warnings;
+}
+
+}
