@@ -77,7 +77,7 @@ BENCHMARK(openvdb_classic)
 int main(int argc, char** argv) {
     for (const MethodChoice& choice :
          {choose(find_method("traced"), 64), choose(find_method("guided"), 1), choose(find_method("guided"), 3),
-          choose(find_method("calibrated"), 10), choose(find_method("exact"), 16), choose(find_method("exact"), 64),
+          choose(find_method("calibrated"), 13), choose(find_method("exact"), 16), choose(find_method("exact"), 64),
           choose(find_method("classic"))})
         benchmark::RegisterBenchmark(choice.label().c_str(), whole, choice)
             ->ArgName("level")

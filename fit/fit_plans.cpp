@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::array<float, 6> radii{0.02f, 0.05f, 0.1f, 0.2f, 0.5f, std::numeric_limits<float>::infinity()};
 constexpr std::array<float, 2> largest_voxels{1.0f / 64.0f, 1.0f / 256.0f};
-constexpr std::array<std::pair<std::string_view, int>, 14> methods{{{"guided", 1},
+constexpr std::array<std::pair<std::string_view, int>, 15> methods{{{"guided", 1},
                                                                     {"guided", 2},
                                                                     {"guided", 3},
                                                                     {"guided", 4},
@@ -41,9 +41,10 @@ constexpr std::array<std::pair<std::string_view, int>, 14> methods{{{"guided", 1
                                                                     {"guided", 32},
                                                                     {"guided", 45},
                                                                     {"guided", 64},
-                                                                    {"calibrated", 10},
-                                                                    {"calibrated", 24}}};
-constexpr TruthOptions truth_options{.rays = 512, .most = 4000};
+                                                                    {"calibrated", 13},
+                                                                    {"calibrated", 38},
+                                                                    {"calibrated", 63}}};
+constexpr TruthOptions truth_options{.rays = 512, .most = 4000, .labels = labels_of_pilot};
 constexpr double min_deviation = 0.01;     // of the truth, for errors to count
 constexpr std::size_t min_vertices = 2000; // of a mesh, for seconds per vertex to count
 constexpr int rays_timed = 64;

@@ -169,7 +169,7 @@ class MeasurementInputs {
         const float radius = as_usage([&] { return job.radius->length.to_unit(diagonal); });
         if (!same_truth(last_, job)) {
             grid_.reset();
-            truth_ = make_truth(*mesh_, radius, {}, next(truth_work));
+            truth_ = make_truth(*mesh_, radius, {.labels = labels_of_pilot}, next(truth_work));
         }
         if (!same_grid(last_, job)) {
             grid_.reset();

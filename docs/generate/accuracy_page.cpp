@@ -56,7 +56,7 @@ std::string name_of(float radius) {
 }
 
 std::vector<Measurement> measure_all(const MeasuredMesh& mesh, float radius) {
-    const Truth truth = make_truth(mesh, radius);
+    const Truth truth = make_truth(mesh, radius, {.labels = labels_of_pilot});
     const MeasuredGrid grid = build_grid(mesh, radius, 0.0f);
     std::vector<Measurement> all;
     for (const MethodChoice& choice : standard_choices())
@@ -87,10 +87,12 @@ std::string table_of(const std::map<float, std::vector<Measurement>>& by_radius)
 std::string dense_section(const fs::path& file) {
     const MeasuredMesh mesh("dense", displaced(subdivided(subdivided(read_mesh(file)))));
     constexpr float radius = 0.1f;
-    const Truth truth = make_truth(mesh, radius);
+    const Truth truth = make_truth(mesh, radius, {.labels = labels_of_pilot});
     const MeasuredGrid grid = build_grid(mesh, radius, 0.0f);
     std::string rows;
-    for (const auto& [method, samples] : std::initializer_list<std::pair<std::string_view, int>>{{"calibrated", 10},
+    for (const auto& [method, samples] : std::initializer_list<std::pair<std::string_view, int>>{{"calibrated", 13},
+                                                                                                 {"calibrated", 38},
+                                                                                                 {"calibrated", 63},
                                                                                                  {"guided", 1},
                                                                                                  {"guided", 2},
                                                                                                  {"guided", 4},
@@ -139,7 +141,7 @@ std::string section_of(const fs::path& file, const fs::path& images) {
 class PlanComparison {
   public:
     PlanComparison(const MeasuredMesh& mesh, float radius)
-        : mesh_(mesh), radius_(radius), truth_(make_truth(mesh, radius)) {
+        : mesh_(mesh), radius_(radius), truth_(make_truth(mesh, radius, {.labels = labels_of_pilot})) {
         for (const float voxel : largest_voxels)
             grids_.emplace(voxel, build_grid(mesh, radius, chosen_voxel(radius, voxel)));
         const auto add = [&](std::string_view method, int samples, float voxel) {
@@ -150,7 +152,7 @@ class PlanComparison {
         for (const float voxel : largest_voxels) {
             for (const int rays : {1, 2, 3, 4, 6, 8, 16, 32, 64})
                 add("guided", rays, voxel);
-            for (const int probes : {10, 24})
+            for (const int probes : {13, 38, 63})
                 add("calibrated", probes, voxel);
         }
     }
@@ -222,8 +224,9 @@ class PlanComparison {
             const Occluders occluders = run.plan.largest_voxel > 0.0f
                                             ? Occluders(grids_.at(run.plan.largest_voxel).field, mesh_.rays)
                                             : Occluders(mesh_.rays);
-            run.ao = evaluate(mesh_.surfels, occluders, *run.plan.choice.method, run.plan.choice.settings(radius_),
-                              Channel::ao)[Channel::ao];
+            Settings settings = run.plan.choice.settings(radius_);
+            settings.labels = pilot.labels();
+            run.ao = evaluate(mesh_.surfels, occluders, *run.plan.choice.method, settings, Channel::ao)[Channel::ao];
             run.rmse = pilot.rmse(run.ao);
             run.predicted_seconds += run.plan.seconds;
             if (run.rmse <= request.error || planner.is_last(run.plan))

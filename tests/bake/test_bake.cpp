@@ -75,6 +75,19 @@ TEST(Bake, TunesTheNamedMethodToAnError) {
     EXPECT_NE(missed.warnings.front().find("reaches only"), std::string::npos) << missed.warnings.front();
 }
 
+TEST(Bake, FitsTheNetworkToTheMesh) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    for (const double probes : {13.0, 38.0, 63.0}) {
+        const BakeOptions options{.method = "calibrated", .parameters = {{"samples", probes}}};
+        BakeOptions unfitted = options;
+        unfitted.pilot = false;
+        const Baked baked = bake(mesh, options);
+        const double rmse = rmse_of_ao(mesh, baked.ao(), 0.1f);
+        EXPECT_LT(rmse, 0.9 * rmse_of_ao(mesh, bake(mesh, unfitted).ao(), 0.1f)) << probes;
+        EXPECT_NEAR(*baked.rmse, rmse, 0.2 * rmse) << probes;
+    }
+}
+
 TEST(Bake, PointsAtTheVerticesHaveTheirValues) {
     // Smooth, so that the faces of a vertex are within 60° of its normal and count as the own faces of the point.
     Mesh mesh = sphere_mesh(4);

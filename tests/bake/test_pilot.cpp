@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace alcove {
@@ -101,6 +102,25 @@ TEST_F(Piloting, TellsHowManyRaysHoldAnError) {
         EXPECT_GT(rmse, 0.7 * error);
         fewer = rays;
     }
+}
+
+TEST_F(Piloting, MeasuresErrorsAtOtherSurfelsThanItsLabels) {
+    ASSERT_TRUE(pilot_.labels());
+    EXPECT_EQ(pilot_.labels()->surfels.size(), options.surfels / 4);
+    std::vector<float> ao(mesh_.surfels.size());
+    for (std::size_t i = 0; i < truth_.vertices.size(); ++i)
+        ao[truth_.vertices[i]] = truth_.ao[i];
+    for (std::size_t i = 0; i < pilot_.labels()->surfels.size(); ++i) {
+        const auto label = std::find_if(mesh_.surfels.begin(), mesh_.surfels.end(), [&](const Surfel& s) {
+            return s.position == pilot_.labels()->surfels[i].position;
+        });
+        float& value = ao[static_cast<std::size_t>(label - mesh_.surfels.begin())];
+        EXPECT_NEAR(pilot_.labels()->ao[i], value, 0.02f);
+        value = 1.0f - value; // not noticed
+    }
+    EXPECT_LT(pilot_.rmse(ao), 0.005);
+    const MeasuredMesh small("sphere", test::sphere_mesh(2));
+    EXPECT_FALSE(Pilot(small.surfels, small.rays, radius, options).labels());
 }
 
 TEST_F(Piloting, OfNoSurfelIsEmpty) {

@@ -27,7 +27,7 @@ class BakeError : public ProgramTest {
 
 TEST_F(BakeError, IsHeldAndTold) {
     const std::string mesh = real_mesh("elephant.off");
-    for (const char* error : {"0.1", "0.03", "0.01"}) {
+    for (const char* error : {"0.03", "0.01", "0.005"}) {
         const Outcome outcome = run({"bake", mesh, "-o", "a.ply", "--error", error, "--json"});
         ASSERT_EQ(outcome.code, done) << outcome.err;
         const double rmse = error_of(mesh, "a.ply"), wanted = std::stod(error);

@@ -45,8 +45,8 @@ TEST_F(Measuring, ComparesExactRaysWithTheTruth) {
 
 TEST_F(Measuring, CountsTheCallsOfMap) {
     EXPECT_EQ(measured("classic", 7).map_calls, 7.0);
-    EXPECT_EQ(measured("calibrated", 24).map_calls, 24.0);
-    EXPECT_EQ(measured("guided", 3).map_calls, 10.0);
+    EXPECT_EQ(measured("calibrated", 38).map_calls, 38.0);
+    EXPECT_EQ(measured("guided", 3).map_calls, 38.0);
     const double traced = measured("traced", 16).map_calls;
     EXPECT_GT(traced, 6.0 + 16.0);
     EXPECT_LT(traced, 6.0 + 16.0 * 40.0);

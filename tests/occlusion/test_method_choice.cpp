@@ -27,7 +27,7 @@ TEST(MethodChoice, SetsSamplesOrRaysWhicheverTheMethodHas) {
 TEST(MethodChoice, RefusesNumbersThatTheMethodDoesNotTake) {
     EXPECT_THROW(choose(find_method("multiscale"), 4), InputError);
     EXPECT_THROW(choose(find_method("exact"), 0), InputError);
-    EXPECT_THROW(choose(find_method("calibrated"), 25), InputError);
+    EXPECT_THROW(choose(find_method("calibrated"), 64), InputError);
 }
 
 TEST(MethodChoice, StandardOnesCoverTheCatalogOnceEach) {

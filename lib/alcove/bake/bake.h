@@ -72,7 +72,8 @@ struct BakeOptions {
     /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.
     bool keep_grid = false;
 
-    bool pilot = true; ///< measure the error of the bake with reference rays; a planned bake needs this
+    /// Measure the error of the bake with reference rays, and fit `calibrated` to some of them. A planned bake needs this.
+    bool pilot = true;
     /// Wall-clock seconds from the call, > 0. A bake whose estimate clearly exceeds this is refused; a running one is
     /// not stopped.
     std::optional<double> time_limit{};

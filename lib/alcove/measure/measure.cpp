@@ -1,5 +1,6 @@
 #include "alcove/measure/measure.h"
 
+#include "alcove/bake/detail/pilot.h"
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/types.h"
 #include "alcove/field/detail/bricks.h"
@@ -19,7 +20,7 @@ namespace alcove {
 namespace {
 
 /// The seed of the truth, so that a bake with exact rays does not share its noise.
-constexpr std::uint32_t truth_seed = 0x7ea7;
+constexpr std::uint32_t truth_seed = 0x7ea7, fitted_seed = 0x7c31;
 constexpr std::size_t max_counted = 1024;
 
 /// Measures CPU seconds of the process since construction, and resets its peak memory.
@@ -84,7 +85,20 @@ MeasuredMesh::MeasuredMesh(std::string n, Mesh m)
 }
 
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options, const Progress& progress) {
-    Truth truth{radius, evenly(mesh.order, options.most), {}};
+    constexpr int fitted_rays = 256; // as in the pilot of a bake
+    Truth truth{radius, {}, {}, {}};
+    std::vector<std::uint32_t> others = mesh.order;
+    if (options.labels > 0 && mesh.order.size() >= Pilot::fewest_to_fit) {
+        std::vector<std::uint32_t> fitted = evenly(mesh.order, options.labels);
+        auto labels = std::make_shared<Labels>();
+        labels->surfels = pick(mesh.surfels, fitted);
+        labels->ao =
+            evaluate_ao(labels->surfels, mesh.rays, Exact{.radius = radius, .rays = fitted_rays, .seed = fitted_seed});
+        truth.labels = std::move(labels);
+        std::sort(fitted.begin(), fitted.end());
+        std::erase_if(others, [&](std::uint32_t v) { return std::binary_search(fitted.begin(), fitted.end(), v); });
+    }
+    truth.vertices = evenly(others, options.most);
     truth.ao = evaluate_ao(pick(mesh.surfels, truth.vertices), mesh.rays,
                            Exact{.radius = radius, .rays = options.rays, .seed = truth_seed}, progress);
     return truth;
@@ -126,8 +140,9 @@ Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const Measured
 
     const Occluders occluders = grid ? Occluders(grid->field, mesh.rays) : Occluders(mesh.rays);
     const ProcessMeter meter;
-    const ChannelValues baked =
-        evaluate(mesh.surfels, occluders, *choice.method, choice.settings(truth.radius), Channel::ao, progress);
+    Settings settings = choice.settings(truth.radius);
+    settings.labels = truth.labels;
+    const ChannelValues baked = evaluate(mesh.surfels, occluders, *choice.method, settings, Channel::ao, progress);
     m.occlusion_seconds = meter.seconds();
     m.peak_rss_bytes = peak_resident_bytes();
 

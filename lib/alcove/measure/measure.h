@@ -37,14 +37,19 @@ struct MeasuredMesh {
 struct TruthOptions {
     int rays = 1024;           ///< per vertex, >= 1; the error of the truth itself is about 0.003
     std::size_t most = 20'000; ///< maximum number of vertices, >= 1
+    std::size_t labels = 0;    ///< vertices of Truth::labels
 };
+/// As many as in a bake with its pilot.
+inline constexpr std::size_t labels_of_pilot = 512;
 
 /// Reference ao at some vertices, by exact rays with a different seed than a bake.
 struct Truth {
     float radius = 0.0f; ///< unit space; may be infinite
-    /// All vertices with a normal, or a subset that is evenly spaced along the Morton curve.
+    /// All vertices with a normal except those of `labels`, or a subset that is evenly spaced along the Morton curve.
     std::vector<std::uint32_t> vertices;
     std::vector<float> ao; ///< one value per entry of `vertices`
+    /// Other vertices, which methods with a network are fitted to. Null if none are wanted, and for small meshes.
+    std::shared_ptr<const Labels> labels;
 };
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options = {},
                  const Progress& progress = {});

@@ -44,6 +44,15 @@ E estimator_of(const Settings& settings) {
 }
 
 template <class E>
+E fitted(const AnyField& field, const Settings& settings) {
+    E estimator = estimator_of<E>(settings);
+    if constexpr (requires { estimator.fit(field, *settings.labels); })
+        if (settings.labels)
+            estimator.fit(field, *settings.labels);
+    return estimator;
+}
+
+template <class E>
 constexpr float reference_radius_of() {
     if constexpr (requires { E::reference_radius; })
         return E::reference_radius;
@@ -68,7 +77,8 @@ constexpr Method method() {
                 else if constexpr (on_mesh)
                     return evaluate(surfels, order, occluders.rays(), estimator_of<E>(settings), wanted, progress);
                 else
-                    return evaluate(surfels, order, occluders.field(), estimator_of<E>(settings), wanted, progress);
+                    return evaluate(surfels, order, occluders.field(), fitted<E>(occluders.field(), settings), wanted,
+                                    progress);
             }};
 }
 
@@ -88,7 +98,7 @@ auto owner_of(std::string_view parameter, std::span<const M* const> needed) {
 
 /// The subset of `all` that goes to `method`: parameters that no earlier method of `needed` has.
 Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
-    Settings own{.radius = all.radius, .max_probe_distance = all.max_probe_distance};
+    Settings own{.radius = all.radius, .max_probe_distance = all.max_probe_distance, .labels = all.labels};
     for (const auto& setting : all.parameters)
         if (const auto owner = owner_of(setting.first, needed); owner != needed.end() && *owner == method)
             own.parameters.push_back(setting);

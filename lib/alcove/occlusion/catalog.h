@@ -4,6 +4,7 @@
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/occluders.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,6 +32,8 @@ struct Settings {
     /// Upper bound of the radius of methods that probe the field: beyond one diagonal from a mesh, probes carry no
     /// information.
     float max_probe_distance = 1.0f;
+    /// Reference ao at some surfels of the mesh: methods with a network fit it to them. May be null.
+    std::shared_ptr<const Labels> labels{};
 };
 
 /// The kind of samples that a method's sample-count parameter counts.

@@ -85,6 +85,12 @@ float start_height(const F& field, float radius) {
     return std::max(0.1f * resolution(field), ray_offset(radius));
 }
 
+/// Surfels with their reference ao, which an estimator that is fitted to a mesh learns from.
+struct Labels {
+    std::vector<Surfel> surfels;
+    std::vector<float> ao;
+};
+
 /// One point per surfel.
 struct ProbeBatch {
     SurfelBatch::Values x, y, z;

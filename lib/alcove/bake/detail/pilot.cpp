@@ -51,6 +51,7 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     noise2_ = difference.rmse * difference.rmse / 4.0;
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
+    take_labels(surfels.size());
     // The surfels are in the order of the curve.
     const std::size_t apart = std::max<std::size_t>(reference_.size() / neighbours, 1);
     double steps2 = 0.0;
@@ -59,6 +60,27 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     const auto steps = static_cast<double>(std::max<std::size_t>(reference_.size(), apart + 1) - apart);
     const double of_few_rays = std::sqrt(2.0 * noise2_) * std::pow(half.rays / 16.0, ray_exponent);
     difficulty_ = std::sqrt(of_few_rays * without(steps2 / steps, noise2_));
+}
+
+void Pilot::take_labels(std::size_t all) {
+    constexpr std::size_t share = 4;
+    if (all < fewest_to_fit)
+        return;
+    auto labels = std::make_shared<Labels>();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < surfels_.size(); ++i)
+        if (i % share == 1) {
+            labels->surfels.push_back(surfels_[i]);
+            labels->ao.push_back(reference_[i]);
+        } else {
+            indices_[kept] = indices_[i];
+            surfels_[kept] = surfels_[i];
+            reference_[kept++] = reference_[i];
+        }
+    indices_.resize(kept);
+    surfels_.resize(kept);
+    reference_.resize(kept);
+    labels_ = std::move(labels);
 }
 
 double Pilot::rmse_of_own(std::span<const float> ao) const {

@@ -4,6 +4,7 @@
 #include "alcove/occlusion/catalog.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,6 +28,7 @@ PilotOptions pilot_beside(int rays);  ///< to measure a bake with that many rays
 class Pilot {
   public:
     static constexpr int most_rays = 1 << 20;
+    static constexpr std::size_t fewest_to_fit = 200; ///< surfels of a mesh that methods are fitted to, see labels()
     /// The error of exact is proportional to rays^-ray_exponent.
     static constexpr double ray_exponent = 0.72;
 
@@ -48,11 +50,15 @@ class Pilot {
     double rmse_of(const Method& method, const Occluders& occluders, const Settings& settings) const;
     /// The RMSE of exact rays at the radius of the pilot. Cost: `rays` rays per sampled surfel.
     double rmse_of_exact(int rays, std::uint32_t seed) const;
+    /// A quarter of the sampled surfels with their reference, for methods that are fitted to the mesh: errors are
+    /// measured at the others. Null if there are too few surfels.
+    const std::shared_ptr<const Labels>& labels() const { return labels_; }
     /// The number of exact rays per surfel that meets `error`, > 0, at the sampled surfels; at most `most_rays`. Cost:
     /// up to 16 calls of rmse_of_exact().
     int rays_for(double error, std::uint32_t seed) const;
 
   private:
+    void take_labels(std::size_t all);
     double rmse_of_own(std::span<const float> ao) const;
 
     RaySurface surface_;
@@ -60,6 +66,7 @@ class Pilot {
     std::vector<std::uint32_t> indices_;
     std::vector<Surfel> surfels_;
     std::vector<float> reference_;
+    std::shared_ptr<const Labels> labels_;
     double noise2_ = 0.0; ///< of the reference
     double difficulty_ = 0.0;
 };

@@ -139,6 +139,7 @@ class TargetBake {
     Settings settings_of(const MethodChoice& choice) const {
         Settings settings = task_.settings;
         settings.radius = target_.radius;
+        settings.labels = pilot_ ? pilot_->labels() : nullptr;
         for (const auto& parameter : choice.settings(target_.radius).parameters)
             settings.parameters.push_back(parameter); // the last value of a parameter wins
         if (choice.method->samples_are == SampleKind::rays)
@@ -173,6 +174,8 @@ class TargetBake {
         const MethodChoice choice = choice_of(*task_.method, task_.settings);
         Settings settings = task_.settings;
         settings.radius = target_.radius;
+        if (has_pilot())
+            settings.labels = pilot(pilot_beside(choice.rays())).labels();
         evaluate_with(choice, settings, GridOptions{}.largest_voxel);
         measure_error(pilot_beside(choice.rays()));
     }

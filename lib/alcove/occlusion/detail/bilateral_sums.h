@@ -13,7 +13,7 @@ struct Curve {
 
     const float *x, *y, *z;                 ///< positions
     const float *nx, *ny, *nz;              ///< unit normals, or zero to exclude a surfel
-    std::array<const float*, probes> probe; ///< CalibratedInputs of each probe
+    std::array<const float*, probes> probe; ///< CalibratedInputs along the normal, and the mean of each ring
 };
 
 /// The weights of the `window` surfels from `first` on, as neighbours of surfel `center`: the products of

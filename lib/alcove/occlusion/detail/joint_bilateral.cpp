@@ -3,7 +3,7 @@
 #include "alcove/base/detail/memory.h"
 #include "alcove/field/detail/trace.h"
 #include "alcove/occlusion/detail/ridge_regression.h"
-#include "alcove/occlusion/methods/calibrated.h"
+#include "alcove/occlusion/methods/calibrated_networks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace alcove {
 namespace {
 
-static_assert(Curve::probes == probe_count<TenProbes>);
+using Probes = ThirtyEightProbes; // more would take longer than another ray
+static_assert(Curve::probes == Probes::normal.size() + Probes::rings.size());
 
 /// The length of the mean of cosine-weighted directions if all are open: ∫ cos²θ dω / π.
 constexpr float open_length = 2.0f / 3.0f;
@@ -67,16 +68,26 @@ void JointBilateral::probe(const AnyField& field, std::size_t begin, std::size_t
     const float radius = std::min(guided_.radius, 1.0f);
     const float lift = start_height(field, radius);
     SurfelBatch batch;
-    CalibratedInputs<TenProbes> inputs{};
+    CalibratedInputs<Probes> inputs{};
+    const RingNetwork::Condition condition = calibrated_condition(field, radius);
     for (std::size_t at = begin; at < end; at += batch.count) {
         batch.count = 0;
         for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
             batch.push_back(surfels_[i], lift);
-        calibrated_inputs<TenProbes>(field, batch, radius, inputs);
-        const SurfelBatch::Values calibrated = calibrated_table::ten_probes(inputs);
-        for (std::size_t k = 0; k < Curve::probes; ++k)
-            std::copy_n(inputs[k].begin(), batch.count, features_[k] + at);
-        std::copy_n(calibrated.begin(), batch.count, features_[Curve::probes] + at);
+        calibrated_inputs<Probes>(field, batch, radius, inputs);
+        RingNetwork::Hidden hidden;
+        calibrated_network<Probes>().hidden_layer(inputs, condition, hidden);
+        for (std::size_t k = 0; k < hidden.size(); ++k)
+            std::copy_n(hidden[k].begin(), batch.count, features_[Curve::probes + k] + at);
+        for (std::size_t i = 0; i < Probes::normal.size(); ++i)
+            std::copy_n(inputs[i].begin(), batch.count, features_[i] + at);
+        for (std::size_t ring = 0; ring < Probes::rings.size(); ++ring) {
+            float* const mean = features_[Probes::normal.size() + ring] + at;
+            std::fill_n(mean, batch.count, 0.0f);
+            for (std::size_t a = 0; a < Probes::azimuths; ++a)
+                for (std::size_t k = 0; k < batch.count; ++k)
+                    mean[k] += inputs[Probes::normal.size() + a * Probes::rings.size() + ring][k] / Probes::azimuths;
+        }
     }
 }
 
@@ -118,7 +129,7 @@ void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::si
 }
 
 void JointBilateral::fit_model() {
-    const RidgeRegression model = fit_quadratic_model(features_, {columns_[ao], size()}, size());
+    const RidgeRegression model = fit_linear_model(features_, {columns_[ao], size()}, size());
     model.predict(features_, 0, size(), columns_[predicted]);
     double sum = 0.0, sum2 = 0.0, unexplained = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/occlusion/detail/bilateral_sums.h"
+#include "alcove/occlusion/detail/ring_network.h"
 #include "alcove/occlusion/methods/guided.h"
 
 #include <array>
@@ -44,8 +45,8 @@ class JointBilateral {
         bent,      ///< deviation of the bent normal from that of an unoccluded surfel; unused if not requested
         columns = bent + 3
     };
-    /// The probes and the ao that Calibrated computes from them.
-    static constexpr std::size_t features = Curve::probes + 1;
+    /// The probes of the curve, and the hidden layer of the network of Calibrated.
+    static constexpr std::size_t features = Curve::probes + RingNetwork::hidden;
 
     Curve curve() const;
     float reach(std::size_t i) const;

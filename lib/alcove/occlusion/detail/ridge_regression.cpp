@@ -17,23 +17,16 @@ void RidgeRegression::predict(std::span<const float* const> features, std::size_
     for (std::size_t at = begin; at < end; at += run) {
         const std::size_t lanes = std::min(run, end - at);
         std::fill_n(values + at, lanes, weights[0]);
-        std::size_t term = 1;
-        for (std::size_t a = 0; a < features.size(); ++a) {
-            float slope[run];
-            std::fill_n(slope, run, weights[term++]);
-            for (std::size_t b = 0; b <= a; ++b, ++term)
-                for (std::size_t k = 0; k < lanes; ++k)
-                    slope[k] += weights[term] * features[b][at + k];
+        for (std::size_t i = 0; i < features.size(); ++i)
             for (std::size_t k = 0; k < lanes; ++k)
-                values[at + k] += slope[k] * features[a][at + k];
-        }
+                values[at + k] += weights[i + 1] * features[i][at + k];
     }
 }
 
-RidgeRegression fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
-                                    std::size_t count) {
+RidgeRegression fit_linear_model(std::span<const float* const> features, std::span<const float> values,
+                                 std::size_t count) {
     const std::size_t runs = (count + run - 1) / run, used = std::min(runs, std::clamp(runs / 4, min_runs, max_runs));
-    const auto terms = static_cast<Eigen::Index>((features.size() + 1) * (features.size() + 2) / 2);
+    const auto terms = static_cast<Eigen::Index>(features.size() + 1);
     using Array = Eigen::Array<float, run, 1>;
     Eigen::MatrixXf block = Eigen::MatrixXf::Zero(run, terms);
     Eigen::MatrixXf products(terms, terms);
@@ -49,13 +42,8 @@ RidgeRegression fit_quadratic_model(std::span<const float* const> features, std:
         };
         block.col(0).setZero();
         block.col(0).head(static_cast<Eigen::Index>(lanes)).setOnes();
-        Eigen::Index term = 1;
-        for (std::size_t a = 0; a < features.size(); ++a) {
-            const Array feature = column(features[a]);
-            block.col(term++) = feature;
-            for (std::size_t b = 0; b <= a; ++b)
-                block.col(term++) = feature * column(features[b]);
-        }
+        for (Eigen::Index term = 1; term < terms; ++term)
+            block.col(term) = column(features[static_cast<std::size_t>(term - 1)]);
         products.setZero();
         products.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
         normal += products.cast<double>();

@@ -1,4 +1,4 @@
-/// Ridge regression of a value on features and their pairwise products.
+/// Ridge regression of a value on features.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace alcove {
 
 struct RidgeRegression {
-    /// The intercept; then, for each feature, its weight and those of its products with features 0 to itself.
+    /// The intercept, then the weight of each feature.
     std::vector<float> weights;
 
     /// Predicts values[i] from features[...][i], for i in [begin, end).
@@ -17,9 +17,9 @@ struct RidgeRegression {
 
 /// Regularised least squares over the first `count` values and features (Hoerl and Kennard 1970), so that
 /// correlated terms share their weight. Fits a quarter of the values, but 4,096 to 16,384 of them, in evenly
-/// spaced runs of 64. The result does not depend on the number of threads. Cost: about 10 ms for eleven features
+/// spaced runs of 64. The result does not depend on the number of threads. Cost: about 10 ms for forty features
 /// and 64,000 values or more.
-RidgeRegression fit_quadratic_model(std::span<const float* const> features, std::span<const float> values,
-                                    std::size_t count);
+RidgeRegression fit_linear_model(std::span<const float* const> features, std::span<const float> values,
+                                 std::size_t count);
 
 }

@@ -1,48 +1,53 @@
-/// A few probes along and around the normal, combined by a small network fitted to exact rays.
+/// Probes along and around the normal, combined by a small network trained on exact rays.
 #pragma once
 
+#include "alcove/occlusion/detail/last_layer_fit.h"
 #include "alcove/occlusion/detail/parameter.h"
-#include "alcove/occlusion/methods/calibrated_table.h"
+#include "alcove/occlusion/methods/calibrated_networks.h"
 #include "alcove/occlusion/methods/traced.h"
 
 namespace alcove {
 
 /// Every probe at distance h, tilted by θ from the normal, gives an input x = cos θ − d/h; then
 ///
-///     ao = clamp(1 + N(x) − N(0)),   N a network of two hidden layers, 16 and 8 units max(0, w·x + b)
+///     ao = clamp(1 + N(x, c) − N(0, c)),   N a RingNetwork, c the radius in voxels and whether the field is two-sided
 ///
-/// with coefficients fitted once to the reference AO of many meshes, at radii from 2 to 50 % of D. The meshes, and
-/// the error on meshes it was not fitted to, are in docs/calibrated.md. All x are 0 over a plane, where ao is 1 by
-/// construction, and independent of scale. The rings of tilted probes are in the surfel's own frame. The network was
-/// not fitted to surfels that touch other faces: these get 32 rays, as in Traced. Source: probes
-/// along the normal (Evans 2006); fitted by fit/fit_calibrated.cpp. Cost: 10 or 24 map() calls per surfel.
+/// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. What
+/// they are, and the error on meshes it was not trained on, is in docs/calibrated.md. All x are 0 over a plane, where ao
+/// is 1 by construction, and independent of scale. The network was not trained on surfels that touch other faces: these
+/// get 32 rays, as in Traced. Source: probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13,
+/// 38 or 63 map() calls per surfel, and 0.05, 0.1 or 0.2 µs.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
-    int samples = 24;    ///< maximum number of probes, >= 10: there are networks for 10 and 24
+    int samples = 38;    ///< maximum number of probes, >= 13: there are networks for 13, 38 and 63
+    std::optional<RingNetwork::LastLayer> last{}; ///< of the network, see fit(); empty: as trained
 
     static constexpr std::string_view name = "calibrated";
     static constexpr std::string_view summary =
-        "probes along and around the normal, combined by a small network fitted to exact rays";
+        "probes along and around the normal, combined by a small network trained on exact rays";
     static constexpr std::string_view formula =
-        "clamp(1 + N(x) - N(0)), x = cos t - d(p + h w_t)/h for each probe, N a fitted 16-8-1 network";
-    static constexpr std::string_view source = "fitted to exact rays: see docs/calibrated.md";
-    static constexpr std::string_view cost = "24 map() calls per point, or 10 if samples is below 24";
+        "clamp(1 + N(x, c) - N(0, c)), x = cos t - d(p + h w_t)/h for each probe, N a trained network";
+    static constexpr std::string_view source = "trained on exact rays: see docs/calibrated.md";
+    static constexpr std::string_view cost = "38 map() calls per point; 13 if samples is below 38, 63 if it is 63";
     static constexpr std::string_view good = "closest to exact rays for so few probes; no noise; exact on planes";
     static constexpr std::string_view bad =
-        "no bound on its error: reliable only on shapes like those it was fitted to; weak in wide cavities";
+        "no bound on its error: reliable only on shapes like those it was trained on; weak in wide cavities";
 
     static constexpr auto parameters() {
-        return std::array{parameter<&Calibrated::samples>("samples", 10, 24, "probes",
-                                                          "maximum number of probes; 10 or 24 are used")};
+        return std::array{parameter<&Calibrated::samples>("samples", 13, 63, "probes",
+                                                          "maximum number of probes; 13, 38 or 63 are used")};
     }
 
     template <Field F>
     void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const {
-        if (samples < 24)
-            estimate<TenProbes>(field, surfels, calibrated_table::ten_probes, out[Channel::ao]);
-        else
-            estimate<TwentyFourProbes>(field, surfels, calibrated_table::twenty_four_probes, out[Channel::ao]);
+        with_probes([&]<class Probes>(Probes) { estimate<Probes>(field, surfels, out[Channel::ao]); });
         trace_contacts(field, surfels, out[Channel::ao]);
+    }
+
+    /// Fits the last layer of the network to the mesh of the field. Cost: that of the estimator at the labels.
+    template <Field F>
+    void fit(const F& field, const Labels& labels) {
+        with_probes([&]<class Probes>(Probes) { last = fitted_layer<Probes>(field, labels); });
     }
 
   private:
@@ -65,13 +70,49 @@ struct Calibrated {
             ao[owner[k]] = values[k];
     }
 
-    template <class Probes, Field F, class N>
-    void estimate(const F& field, const SurfelBatch& surfels, const N& network, float* ao) const {
+    template <class Use>
+    void with_probes(Use use) const {
+        if (samples < 38)
+            use(ThirteenProbes());
+        else if (samples < 63)
+            use(ThirtyEightProbes());
+        else
+            use(SixtyThreeProbes());
+    }
+
+    template <class Probes, Field F>
+    void hidden_layer(const F& field, const SurfelBatch& surfels, RingNetwork::Hidden& h) const {
         CalibratedInputs<Probes> inputs{};
         calibrated_inputs<Probes>(field, surfels, radius, inputs);
-        const SurfelBatch::Values value = network(inputs);
+        calibrated_network<Probes>().hidden_layer(inputs, calibrated_condition(field, radius), h);
+    }
+
+    template <class Probes, Field F>
+    void estimate(const F& field, const SurfelBatch& surfels, float* ao) const {
+        RingNetwork::Hidden h;
+        hidden_layer<Probes>(field, surfels, h);
+        SurfelBatch::Values value;
+        RingNetwork::value(h, last ? *last : calibrated_network<Probes>().last_layer(), value);
         for (std::size_t k = 0; k < surfels.count; ++k)
-            ao[k] = std::clamp(value[k], 0.0f, 1.0f);
+            ao[k] = std::clamp(1.0f + value[k], 0.0f, 1.0f);
+    }
+
+    template <class Probes, Field F>
+    RingNetwork::LastLayer fitted_layer(const F& field, const Labels& labels) const {
+        LastLayerFit fit(calibrated_network<Probes>().last_layer());
+        for (std::size_t at = 0; at < labels.surfels.size();) {
+            SurfelBatch batch;
+            std::vector<float> ao;
+            for (; at < labels.surfels.size() && batch.count < SurfelBatch::capacity; ++at)
+                if (const Surfel& surfel = labels.surfels[at]; surfel.away == Vec3(0.0f) && !surfel.covered) {
+                    batch.push_back(surfel);
+                    ao.push_back(labels.ao[at]);
+                }
+            RingNetwork::Hidden h;
+            hidden_layer<Probes>(field, batch, h);
+            fit.add(h, ao);
+        }
+        return fit.layer();
     }
 };
 

@@ -10,9 +10,8 @@ namespace alcove {
 ///
 ///  1. Trace. An additive recurrence in the Morton rank shifts the lattice of directions, so that the rays of
 ///     neighbouring surfels are low-discrepancy together (Roberts 2018).
-///  2. Predict. A ridge regression m predicts v from the ten probes of Calibrated, the ao that Calibrated computes
-///     from them, and their squares and pairwise products. It is fitted to the rays of all surfels (Hoerl and
-///     Kennard 1970).
+///  2. Predict. A ridge regression m predicts v from 38 probes of Calibrated and the hidden layer of its network. It is
+///     fitted to the rays of all surfels (Hoerl and Kennard 1970).
 ///  3. Filter. The residuals r = v − m are averaged over neighbours, weighted by distance, by normals (0 beyond a
 ///     right angle) and by the difference of their probes. This excludes the other side of a sheet and the other
 ///     face of a crease (Buades et al. 2005). With weights w, variance σ² of the mean of one surfel's rays and
@@ -23,8 +22,8 @@ namespace alcove {
 /// As rays grow, σ goes to 0 and the filter radius shrinks, so the result converges to Exact. Bent normals are
 /// filtered by their deviation from the normal, with a local regression on m (Cleveland 1979).
 ///
-/// Surfels with the same position and normal get the same values. Cost: 10 map() calls and `rays` rays per surfel,
-/// and 0.2 µs to filter them.
+/// Surfels with the same position and normal get the same values. Cost: 38 map() calls and `rays` rays per surfel,
+/// and 0.5 µs for the network and the filter.
 struct Guided {
     float radius = 0.1f; ///< > 0, may be infinite; probes go to min(radius, 1)
     int rays = 3;        ///< per surfel, >= 1
@@ -36,7 +35,7 @@ struct Guided {
     static constexpr std::string_view formula = "a + max(0, 1 - 2 sigma^2/s^2) (v - a), v = 1/N sum V(w_i), "
                                                 "a = m + mean of neighbouring v - m, m fitted";
     static constexpr std::string_view source = "after Hoerl and Kennard (1970), Buades et al. (2005)";
-    static constexpr std::string_view cost = "10 map() calls and 3 rays on the mesh per point";
+    static constexpr std::string_view cost = "38 map() calls and 3 rays on the mesh per point";
     static constexpr std::string_view good = "as accurate as exact, with a tenth of the rays";
     static constexpr std::string_view bad =
         "smooths detail that neither probes nor neighbours show; needs both the mesh and a grid";

@@ -1,0 +1,28 @@
+/// Random scenes that the networks of `calibrated` are trained on.
+#pragma once
+
+#include "alcove/grid/voxelize.h"
+#include "alcove/mesh/mesh.h"
+
+#include <cstdint>
+#include <random>
+#include <span>
+#include <string_view>
+
+namespace alcove::fit {
+
+struct TrainingScene {
+    std::string_view kind;
+    Mesh mesh;
+    SignChoice sign = SignChoice::automatic;
+};
+
+/// A scene made of `meshes`, which have a diagonal of 1 around the origin, or of generated shapes: a stretched mesh, a
+/// displaced one, several meshes together, primitives together, a corner of a room, or a part of blocks with pockets,
+/// ribs and walls.
+TrainingScene random_scene(std::span<const Mesh> meshes, std::mt19937& random);
+
+/// The mesh in a random orientation.
+Mesh turned(const Mesh& mesh, std::mt19937& random);
+
+}

@@ -1,0 +1,28 @@
+/// Fits the last layer of a RingNetwork to the reference ao of one mesh.
+#pragma once
+
+#include "alcove/occlusion/detail/ring_network.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// Ridge regression of the errors of a network on its hidden values (Hoerl and Kennard 1970): its last layer changes
+/// only as far as the examples support it, and its value on planes not at all.
+class LastLayerFit {
+  public:
+    explicit LastLayerFit(const RingNetwork::LastLayer& trained);
+
+    /// Adds the first `ao.size()` surfels of a batch; ao is 1 plus the value of the network.
+    void add(const RingNetwork::Hidden& h, std::span<const float> ao);
+    /// The fitted layer; the trained one without examples.
+    RingNetwork::LastLayer layer() const;
+
+  private:
+    RingNetwork::LastLayer trained_;
+    std::vector<double> products_, errors_; ///< Σ h hᵀ, row by row, and Σ h (ao − 1 − w·h)
+};
+
+}
