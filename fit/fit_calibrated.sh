@@ -10,4 +10,4 @@ build/fit/alcove_fit_examples build/fit/examples
 /usr/bin/python3 fit/train_networks.py build/fit/examples lib/alcove/occlusion/methods
 cmake --build build --target alcove_fit_report
 python3 bench/make_parts.py build/fit/parts
-build/fit/alcove_fit_report build/fit/parts/*.{stl,obj}
+build/fit/alcove_fit_report build/fit/parts/*.{stl,obj,off}

@@ -63,10 +63,10 @@ struct BakeOptions {
 
     ChannelSet attributes = Channel::ao;
     NormalSource normals = NormalSource::automatic;
+    SignChoice sign = SignChoice::automatic;
     /// Joins vertices within this length before the bake, finite and not in voxels: closes what an exporter has rounded
     /// apart. Each vertex gets the values of the joined one.
     std::optional<Length> weld{};
-    SignChoice sign = SignChoice::automatic;
     std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: chosen
     const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
     /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.

@@ -118,7 +118,8 @@ RingNetwork::RingNetwork(const Shape& shape, std::vector<float> coefficients)
 }
 
 void RingNetwork::hidden_layer(std::span<const Values> inputs, const Condition& condition, Hidden& h) const {
-    const auto [normals, azimuths, per_azimuth, first, second] = shape_;
+    const std::size_t normals = shape_.normals, azimuths = shape_.azimuths, per_azimuth = shape_.features,
+                      first = shape_.first, second = shape_.second;
     const std::size_t whole = normals + 2; // columns of inputs that concern the whole surfel
     std::array<Values, 2> given;
     std::array<Values, most_units> common, e, f, mean, middle;
@@ -169,8 +170,7 @@ void RingNetwork::value(const Hidden& h, const LastLayer& last, Values& values) 
 
 /// h for inputs of 0, for which all azimuths are equal.
 std::array<float, RingNetwork::hidden> RingNetwork::hidden_on_plane(const Condition& condition) const {
-    const auto [normals, azimuths, per_azimuth, first, second] = shape_;
-    const std::size_t whole = normals + 2;
+    const std::size_t normals = shape_.normals, first = shape_.first, second = shape_.second, whole = normals + 2;
     const auto of_condition = [&](const float* row) {
         return row[normals] * condition.resolution + row[normals + 1] * condition.two_sided;
     };
