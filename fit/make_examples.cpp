@@ -11,7 +11,6 @@
 #include "alcove/base/types.h"
 #include "alcove/field/detail/trace.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/grid/detail/plan.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/read.h"
 #include "alcove/mesh/triangulate.h"
@@ -24,8 +23,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
-#include <map>
-#include <optional>
+#include <numeric>
 
 namespace alcove::fit {
 namespace {
@@ -61,6 +59,10 @@ class ExampleFile {
         rows_ += batch.count;
     }
     std::size_t rows() const { return rows_; }
+    void finish() {
+        if (!file_.flush())
+            throw std::runtime_error("cannot write the examples; is the disk full?");
+    }
 
   private:
     std::ofstream file_;
@@ -214,10 +216,8 @@ void make_training_examples(const std::string& folder, std::span<const MeshFile>
         add(turned(mesh, random), 1500, 0.7, SignChoice::automatic);
         meshes.push_back(std::move(mesh));
     }
-    std::map<std::string_view, int> kinds;
     for (int i = 0; i < scenes; ++i) {
         const TrainingScene made = random_scene(meshes, random);
-        ++kinds[made.kind];
         try {
             add(made.mesh, 900, made.kind == "parts" || made.kind == "primitives" || made.kind == "rooms" ? 0.3 : 0.5,
                 made.sign);
@@ -229,6 +229,7 @@ void make_training_examples(const std::string& folder, std::span<const MeshFile>
             std::fflush(stdout);
         }
     }
+    file.finish();
 }
 
 void make_test_examples(const std::string& folder, std::span<const MeshFile> files) {
@@ -259,6 +260,7 @@ void make_test_examples(const std::string& folder, std::span<const MeshFile> fil
             }
         }
     }
+    file.finish();
 }
 
 }
@@ -273,7 +275,7 @@ int main(int argc, char** argv) {
         const std::vector<alcove::fit::MeshFile> files =
             alcove::fit::split_meshes(std::string(ALCOVE_TREE) + "/build/meshes/meshes");
         alcove::fit::make_test_examples(folder, files);
-        alcove::fit::make_training_examples(folder, files, argc > 2 ? std::atoi(argv[2]) : 600);
+        alcove::fit::make_training_examples(folder, files, argc > 2 ? std::atoi(argv[2]) : 640);
         return EXIT_SUCCESS;
     } catch (const std::exception& failure) {
         fmt::print(stderr, "alcove_fit_examples: {}\n", failure.what());

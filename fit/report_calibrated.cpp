@@ -49,16 +49,15 @@ MeasuredFile measured(const std::filesystem::path& path, Group group) {
     for (std::size_t r = 0; r < radii.size(); ++r) {
         Truth truth = make_truth(mesh, radii[r], {.rays = rays, .most = most_vertices, .labels = labels_of_pilot});
         const MeasuredGrid grid = build_grid(mesh, radii[r], 0.0f);
+        file.at[r].deviation = compare(truth.ao, truth.ao).deviation;
         const auto rmse = [&](std::size_t network) {
-            return measure(mesh, truth, &grid, choose(find_method("calibrated"), networks[network])).error;
+            return measure(mesh, truth, &grid, choose(find_method("calibrated"), networks[network])).error.rmse;
         };
-        for (std::size_t n = 0; n < networks.size(); ++n) {
-            file.at[r].deviation = rmse(n).deviation;
-            file.at[r].fitted[n] = rmse(n).rmse;
-        }
+        for (std::size_t n = 0; n < networks.size(); ++n)
+            file.at[r].fitted[n] = rmse(n);
         truth.labels.reset();
         for (std::size_t n = 0; n < networks.size(); ++n)
-            file.at[r].trained[n] = rmse(n).rmse;
+            file.at[r].trained[n] = rmse(n);
     }
     return file;
 }
@@ -76,8 +75,9 @@ std::string report(const std::vector<MeasuredFile>& files) {
 
 The RMSE against 1,024 exact rays, at up to 1,000 vertices of each mesh, on the grids that a bake uses by default: of
 the networks as they were trained, and with the last layer fitted to the mesh, as a bake with a pilot does. Meshes of
-fewer than 200 vertices are not fitted. Half of the meshes of the archive, chosen by name, were held out from training:
-their errors are the ones that matter, and those on generated parts. The standard deviation of the reference is the RMSE
+fewer than 200 vertices are not fitted. Half of the meshes of the archive, chosen by name, were held out from training.
+The networks were trained on the other half and on 640 random scenes (fit/scenes.h). The errors that matter are those on
+held-out meshes, and on generated parts, which come from another generator than the scenes. The standard deviation of the reference is the RMSE
 of the best constant. All meshes have the same weight. To train the networks and write this page:
 
     fit/fit_calibrated.sh

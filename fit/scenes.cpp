@@ -162,6 +162,10 @@ Mesh blocks(const std::array<std::vector<double>, 3>& cuts, Filled filled) {
     return mesh;
 }
 
+Mesh unit_cube() {
+    return blocks({{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}}, [](const auto&) { return true; });
+}
+
 /// Planes at random distances: some as thin as a wall.
 std::vector<double> random_cuts(Chance& chance, int cells) {
     std::vector<double> cuts{0.0};
@@ -203,15 +207,14 @@ Mesh block_part(Chance& chance) {
     return blocks(cuts, [&](const std::array<int, 3>& c) { return cell(c) != 0; });
 }
 
-/// A closed ring of (radius, height) turned around the z axis: a tube, a torus, a shaft, a nut with a thread or teeth.
-Mesh lathe(const std::vector<std::array<double, 2>>& ring, int around, double teeth, double depth, double pitch,
-           const Noise& noise) {
+/// A closed ring of (radius, height) turned around the z axis: a tube, a torus, a shaft, a gear.
+Mesh lathe(const std::vector<std::array<double, 2>>& ring, int around, double teeth, double depth, const Noise& noise) {
     Mesh mesh;
     const auto count = static_cast<int>(ring.size());
     for (int i = 0; i < around; ++i)
         for (const auto& [radius, height] : ring) {
             const double angle = turn * i / around;
-            const double tooth = depth * std::clamp(3.0 * std::sin(teeth * angle + pitch * height), -1.0, 1.0);
+            const double tooth = depth * std::clamp(3.0 * std::sin(teeth * angle), -1.0, 1.0);
             const Vec3d out(std::cos(angle), std::sin(angle), 0.0);
             const double r = radius * (1.0 + tooth) * (1.0 + noise(out + Vec3d(0, 0, 3.0 * height)));
             mesh.positions.push_back(r * out + Vec3d(0, 0, height));
@@ -230,7 +233,7 @@ Mesh primitive(Chance& chance) {
     std::vector<std::array<double, 2>> ring;
     const int kind = chance.whole(0, 5);
     if (kind == 0) // a box
-        return blocks({{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}}, [](const auto&) { return true; });
+        return unit_cube();
     if (kind <= 2) { // a ball, or a torus
         const double inner = kind == 1 ? 0.0 : chance.between(0.3, 0.45), tube = 0.5 - inner;
         const int steps = rough ? 100 : chance.whole(6, 40);
@@ -239,7 +242,7 @@ Mesh primitive(Chance& chance) {
             const double angle = half * j / steps - 0.25 * turn;
             ring.push_back({std::max(inner + tube * std::cos(angle), 0.0), tube * std::sin(angle)});
         }
-        return lathe(ring, around, 0.0, 0.0, 0.0, noise);
+        return lathe(ring, around, 0.0, 0.0, noise);
     }
     // A profile of steps, with or without a bore; radii change suddenly or smoothly.
     const int steps = chance.whole(1, 7);
@@ -266,8 +269,8 @@ Mesh primitive(Chance& chance) {
     const bool toothed = chance.happens(0.4);
     const int teeth = toothed ? chance.whole(0, 16) : 0;
     if (toothed && teeth > 0)
-        return lathe(ring, 8 * teeth, teeth, chance.between(0.03, 0.3), 0.0, noise);
-    return lathe(ring, around, 0.0, 0.0, 0.0, noise);
+        return lathe(ring, 8 * teeth, teeth, chance.between(0.03, 0.3), noise);
+    return lathe(ring, around, 0.0, 0.0, noise);
 }
 
 /// A plate that others stand on or sink into.
@@ -276,8 +279,7 @@ void add_plate(Mesh& mesh, Chance& chance, double top, double thickness) {
     size[0][0] = chance.between(0.8, 3.0);
     size[1][1] = chance.between(0.8, 3.0);
     size[2][2] = thickness;
-    append(mesh, blocks({{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}}, [](const auto&) { return true; }), size,
-           {0, 0, top - 0.5 * thickness});
+    append(mesh, unit_cube(), size, {0, 0, top - 0.5 * thickness});
 }
 
 double lowest(const Mesh& mesh) {
@@ -336,8 +338,7 @@ TrainingScene random_scene(std::span<const Mesh> meshes, std::mt19937& random) {
             size[axis][axis] = chance.scale(0.01, 0.2);
             for (int other = 0; other < 3; ++other)
                 move[other] = other == axis ? -0.5 * size[axis][axis] : 0.5 * size[other][other] - 0.2;
-            append(scene.mesh, blocks({{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}}, [](const auto&) { return true; }),
-                   size, move);
+            append(scene.mesh, unit_cube(), size, move);
         }
         for (int i = chance.whole(0, 3); i > 0; --i)
             append(scene.mesh, primitive(chance), chance.rotation() * chance.stretch(0.3) * chance.scale(0.1, 0.6),

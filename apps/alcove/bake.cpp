@@ -260,8 +260,7 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
     via->excludes(app.get_option("--method"));
     app.add_flag_callback(
         "--no-pilot", [&bake] { bake.pilot = false; },
-        "Do not measure the error of the bake (normally measured at a sample of its vertices), nor fit calibrated to "
-        "it");
+        "Shoot no reference rays: the error of the bake is not measured, and calibrated is not fitted to the mesh");
 }
 
 /// The attributes, and the vertices to bake.

@@ -112,7 +112,7 @@ Comparison MeasuredChoices::compare(double error) const {
                 }
             }
     };
-    add("calibrated", {10, 24});
+    add("calibrated", {13, 38, 63});
     add("guided", {1, 2, 3, 4, 6, 8, 16, 32, 64});
     for (Bake& candidate : candidates)
         candidate = bake_once(file_, candidate.choice, compared_radius);

@@ -160,7 +160,7 @@ std::string scaling_table(std::string_view variable, const std::vector<std::pair
 }
 
 std::string scaling_section(const fs::path& scratch, const fs::path& images) {
-    const Choice calibrated{choose(find_method("calibrated"), 10), 1.0f / 256.0f, 0.0};
+    const Choice calibrated{choose(find_method("calibrated"), 13), 1.0f / 256.0f, 0.0};
     std::vector<std::pair<std::string, Bake>> by_triangles, by_voxel, by_radius;
     Chart chart{"triangles", "seconds", {}, {}};
     for (const std::string_view phase : {"read", "grid", "occlusion", "write"})
@@ -188,7 +188,7 @@ std::string scaling_section(const fs::path& scratch, const fs::path& images) {
     write_text(images / "triangles.svg", svg(chart) + "\n");
     return fmt::format(R"(## Scaling
 
-Milliseconds of calibrated:10. The voxel is 1/256 and the radius 10 %, unless the first column says otherwise. There are
+Milliseconds of calibrated:13. The voxel is 1/256 and the radius 10 %, unless the first column says otherwise. There are
 half as many vertices as triangles.
 
 {}![seconds by triangles](images/performance/triangles.svg)

@@ -69,8 +69,8 @@ inline const std::map<std::string_view, std::string_view> image_remarks{
                "Halving the voxel halves all of these errors. ChineseDragon-10kv.off differs most, with an RMSE of "
                "0.06, and there the exact rays are at fault: they start below a neighbouring face where the mesh "
                "folds over, and leave black specks."},
-    {"calibrated", "Right on average and wrong in places: between ball and ring, a shape that no training mesh had at "
-                   "that scale, it is black. It judges a crease by the creases of the scans it was fitted to."},
+    {"calibrated", "As trained, without a fit to these scenes. Right on average and wrong in places: between ball and "
+                   "ring it shows faint stripes."},
     {"guided", "Three rays per vertex, and no grain: a regression on the probes, fitted to the rays of the mesh "
                "itself, predicts the value, and vertices with similar probes share the residuals. Single dark "
                "vertices, as in the lion's mane, are pulled toward that prediction until there are more rays."},

@@ -216,6 +216,8 @@ TEST_F(BakeVerb, WeldJoinsVerticesButKeepsThemInTheOutput) {
     EXPECT_EQ(a.corners, b.corners);
     expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "inf"}, usage, {"--weld", "finite"});
     expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "2vx"}, usage, {"--weld", "0.2 (scene units)"});
+    expect_refusal({"bake", "soup.off", "-o", "b.ply", "--weld", "5"}, bad_input,
+                   {"soup.off: --weld: joins the corners of every face"});
 }
 
 /// The normals of the file differ where vertices coincide, so they must not keep the vertices apart if they are unused.

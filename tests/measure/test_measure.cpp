@@ -52,6 +52,14 @@ TEST_F(Measuring, CountsTheCallsOfMap) {
     EXPECT_LT(traced, 6.0 + 16.0 * 40.0);
 }
 
+TEST_F(Measuring, LeavesMostOfASmallMeshForTheTruth) {
+    const MeasuredMesh small("sphere", test::sphere_mesh(3)); // 258 vertices
+    const Truth truth = make_truth(small, 0.3f, {.rays = 64, .labels = labels_of_pilot});
+    ASSERT_TRUE(truth.labels);
+    EXPECT_EQ(truth.labels->surfels.size(), 64u);
+    EXPECT_EQ(truth.vertices.size(), 258u - 64u);
+}
+
 TEST_F(Measuring, CountsTheGridToThoseThatProbeIt) {
     const Measurement classic = measured("classic", 5);
     EXPECT_EQ(classic.grid_seconds, grid_.seconds);

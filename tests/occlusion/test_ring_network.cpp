@@ -23,7 +23,7 @@ std::vector<float> random_numbers(std::size_t count, unsigned seed) {
 }
 
 std::vector<Values> random_inputs(unsigned seed) {
-    std::vector<Values> inputs(shape.normals + shape.azimuths * shape.features);
+    std::vector<Values> inputs(shape.shared + shape.azimuths * shape.features);
     const std::vector<float> numbers = random_numbers(inputs.size() * SurfelBatch::capacity, seed);
     for (std::size_t i = 0; i < inputs.size(); ++i)
         std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(i * SurfelBatch::capacity), SurfelBatch::capacity,
@@ -39,7 +39,7 @@ struct Reference {
 Reference reference(const std::vector<float>& coefficients, const std::vector<double>& x) {
     std::vector<std::vector<double>> parts;
     std::size_t at = 0;
-    const std::size_t whole = shape.normals + 2;
+    const std::size_t whole = shape.shared + 2;
     for (const std::size_t size :
          {shape.first * shape.features, shape.first * shape.features, shape.first * whole, shape.first,
           shape.second * shape.first, shape.second, 32 * (shape.second + whole), std::size_t(32), std::size_t(32)}) {
@@ -64,10 +64,10 @@ Reference reference(const std::vector<float>& coefficients, const std::vector<do
             s = rectified ? std::max(s, 0.0) : s;
         return sum;
     };
-    std::vector<double> given(x.begin(), x.begin() + shape.normals);
+    std::vector<double> given(x.begin(), x.begin() + shape.shared);
     given.insert(given.end(), {double(condition.resolution), double(condition.two_sided)});
     const auto ring = [&](std::size_t a, std::size_t i) {
-        return x[shape.normals + a % shape.azimuths * shape.features + i];
+        return x[shape.shared + a % shape.azimuths * shape.features + i];
     };
     std::vector<double> mean(shape.second, 0.0);
     for (std::size_t a = 0; a < shape.azimuths; ++a) {
@@ -121,7 +121,7 @@ TEST(RingNetwork, DoesNotDependOnWhereTheRingBegins) {
         return values;
     };
     const Values before = value();
-    std::rotate(inputs.begin() + shape.normals, inputs.begin() + shape.normals + 2 * shape.features, inputs.end());
+    std::rotate(inputs.begin() + shape.shared, inputs.begin() + shape.shared + 2 * shape.features, inputs.end());
     const Values after = value();
     for (std::size_t k = 0; k < SurfelBatch::capacity; ++k)
         EXPECT_NEAR(before[k], after[k], 1e-5);
@@ -129,7 +129,7 @@ TEST(RingNetwork, DoesNotDependOnWhereTheRingBegins) {
 
 TEST(RingNetwork, IsZeroForInputsOfZero) {
     const std::vector<float> coefficients = random_numbers(RingNetwork::size(shape), 5);
-    std::vector<Values> inputs(shape.normals + shape.azimuths * shape.features);
+    std::vector<Values> inputs(shape.shared + shape.azimuths * shape.features);
     for (Values& input : inputs)
         input.fill(0.0f);
     for (const RingNetwork::Condition& c : {condition, RingNetwork::Condition{-0.25f, 0.0f}}) {

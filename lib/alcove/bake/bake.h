@@ -161,7 +161,8 @@ Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOpt
 /// `quality`), so that vertex values can represent it: a floor of one quad under a box gets the shadow of the box.
 /// Edges up to 1/16 of the radius, or of a quarter of the diagonal if that is less, are not split. The result has at
 /// most a million faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in
-/// tessellate(). `method`, `via`, `self`, `progress` and `time_limit` have no effect.
+/// tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no
+/// effect.
 ///
 /// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
 /// as bake() and tessellate().

@@ -89,7 +89,7 @@ Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& opt
     Truth truth{radius, {}, {}, {}};
     std::vector<std::uint32_t> others = mesh.order;
     if (options.labels > 0 && mesh.order.size() >= Pilot::fewest_to_fit) {
-        std::vector<std::uint32_t> fitted = evenly(mesh.order, options.labels);
+        std::vector<std::uint32_t> fitted = evenly(mesh.order, std::min(options.labels, mesh.order.size() / 4));
         auto labels = std::make_shared<Labels>();
         labels->surfels = pick(mesh.surfels, fitted);
         labels->ao =

@@ -37,9 +37,9 @@ struct MeasuredMesh {
 struct TruthOptions {
     int rays = 1024;           ///< per vertex, >= 1; the error of the truth itself is about 0.003
     std::size_t most = 20'000; ///< maximum number of vertices, >= 1
-    std::size_t labels = 0;    ///< vertices of Truth::labels
+    std::size_t labels = 0;    ///< vertices of Truth::labels, at most a quarter of all
 };
-/// As many as in a bake with its pilot.
+/// As many as in a planned bake with an error of 0.02.
 inline constexpr std::size_t labels_of_pilot = 512;
 
 /// Reference ao at some vertices, by exact rays with a different seed than a bake.

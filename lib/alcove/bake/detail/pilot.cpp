@@ -51,7 +51,7 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     noise2_ = difference.rmse * difference.rmse / 4.0;
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
-    take_labels(surfels.size());
+    take_labels();
     // The surfels are in the order of the curve.
     const std::size_t apart = std::max<std::size_t>(reference_.size() / neighbours, 1);
     double steps2 = 0.0;
@@ -62,9 +62,9 @@ Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float r
     difficulty_ = std::sqrt(of_few_rays * without(steps2 / steps, noise2_));
 }
 
-void Pilot::take_labels(std::size_t all) {
+void Pilot::take_labels() {
     constexpr std::size_t share = 4;
-    if (all < fewest_to_fit)
+    if (surfels_.size() < fewest_to_fit)
         return;
     auto labels = std::make_shared<Labels>();
     std::size_t kept = 0;

@@ -28,7 +28,7 @@ PilotOptions pilot_beside(int rays);  ///< to measure a bake with that many rays
 class Pilot {
   public:
     static constexpr int most_rays = 1 << 20;
-    static constexpr std::size_t fewest_to_fit = 200; ///< surfels of a mesh that methods are fitted to, see labels()
+    static constexpr std::size_t fewest_to_fit = 200; ///< sampled surfels, see labels()
     /// The error of exact is proportional to rays^-ray_exponent.
     static constexpr double ray_exponent = 0.72;
 
@@ -58,7 +58,7 @@ class Pilot {
     int rays_for(double error, std::uint32_t seed) const;
 
   private:
-    void take_labels(std::size_t all);
+    void take_labels();
     double rmse_of_own(std::span<const float> ao) const;
 
     RaySurface surface_;

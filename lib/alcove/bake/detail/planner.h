@@ -37,7 +37,7 @@ struct Plan {
 };
 
 /// Compares exact, with the number of rays from the pilot, to guided and calibrated if these provide the wanted
-/// channels. Errors and costs come from plan_table.h. They were measured on the meshes that calibrated was fitted to;
+/// channels. Errors and costs come from plan_table.h. They were measured on the meshes that calibrated was trained on;
 /// errors are medians over the meshes in units of Pilot::difficulty(). Ray counts between those of the table are
 /// interpolated. The measured error of a bake corrects the expected errors of its method.
 ///

@@ -34,6 +34,7 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, const
     constexpr double certain = 2.0;   // ratio to the limit, in either direction
     if (!deadline.is_set())
         return;
+    settings.labels.reset(); // a fit takes longer than a trial, but not longer for more surfels
     double samples_left_out = 1.0;
     if (choice.samples > max_samples) {
         settings.parameters.emplace_back(parameter_of(choice.method->samples_are), max_samples);

@@ -25,7 +25,7 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-    ::mallopt(M_MMAP_MAX, 0); // arrays of their own mapping would be returned
+    ::mallopt(M_MMAP_MAX, 0); // large arrays would get mappings of their own, which free() returns
     ::mallopt(M_TRIM_THRESHOLD, -1);
 #endif
 }

@@ -14,8 +14,8 @@ namespace alcove {
 /// Requests huge pages where they fit into [begin, begin + bytes). A hint, without effect on systems without them.
 void prefer_huge_pages(void* begin, std::size_t bytes);
 
-/// Keeps freed memory in the process from now on: the system would clear each page again that a later array uses, which
-/// takes a tenth of the time of a bake. For programs, not for libraries. No effect without glibc.
+/// Keeps freed memory in the process from now on. Otherwise the system clears each page again before a later array gets
+/// it, which takes a tenth of the time of a bake. For programs, not for libraries. No effect without glibc.
 void keep_freed_memory();
 
 /// Reserves room for `count` values, on huge pages.

@@ -27,8 +27,8 @@ InputError refusal(const Mesh& mesh, const std::string& why) {
 
 JoinedMesh join_vertices(const Mesh& mesh, const Length& within) {
     const auto distance = [&] {
-        const double diagonal = frame_of(mesh.box()).diagonal;
         try {
+            const double diagonal = frame_of(mesh.box()).diagonal;
             return double(within.to_unit(diagonal)) * diagonal;
         } catch (const InputError& error) {
             throw refusal(mesh, error.what());

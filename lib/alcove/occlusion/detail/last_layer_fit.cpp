@@ -14,7 +14,7 @@ void LastLayerFit::add(const RingNetwork::Hidden& h, std::span<const float> ao) 
         double value = 1.0;
         for (std::size_t i = 0; i < h.size(); ++i)
             value += double(trained_[i]) * h[i][k];
-        // What the clamp of a prediction hides is no error.
+        // Errors that the clamp removes do not count.
         const double error = double(ao[k]) - std::clamp(value, 0.0, 1.0);
         for (std::size_t i = 0; i < h.size(); ++i) {
             errors_[i] += h[i][k] * error;

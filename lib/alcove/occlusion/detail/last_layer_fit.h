@@ -22,7 +22,7 @@ class LastLayerFit {
 
   private:
     RingNetwork::LastLayer trained_;
-    std::vector<double> products_, errors_; ///< Σ h hᵀ, row by row, and Σ h (ao − 1 − w·h)
+    std::vector<double> products_, errors_; ///< Σ h hᵀ, row by row, and Σ h (ao − clamp(1 + w·h))
 };
 
 }

@@ -91,7 +91,7 @@ void fill(std::span<Values> all, const float* bias) {
 HWY_EXPORT(add_product);
 
 std::size_t RingNetwork::size(const Shape& s) {
-    const std::size_t whole = s.normals + 2;
+    const std::size_t whole = s.shared + 2;
     return s.first * (2 * s.features + whole + 1) + s.second * (s.first + 1) + hidden * (s.second + whole + 1) + hidden;
 }
 
@@ -99,7 +99,7 @@ RingNetwork::RingNetwork(const Shape& shape, std::vector<float> coefficients)
     : shape_(shape), coefficients_(std::move(coefficients)) {
     if (coefficients_.size() != size(shape) || std::max({shape.features, shape.first, shape.second}) > most_units)
         throw std::logic_error("the coefficients do not fit the network");
-    const std::size_t whole = shape.normals + 2;
+    const std::size_t whole = shape.shared + 2;
     const float* at = coefficients_.data();
     const auto next = [&](std::size_t count) {
         const float* const begin = at;
@@ -118,7 +118,7 @@ RingNetwork::RingNetwork(const Shape& shape, std::vector<float> coefficients)
 }
 
 void RingNetwork::hidden_layer(std::span<const Values> inputs, const Condition& condition, Hidden& h) const {
-    const std::size_t normals = shape_.normals, azimuths = shape_.azimuths, per_azimuth = shape_.features,
+    const std::size_t normals = shape_.shared, azimuths = shape_.azimuths, per_azimuth = shape_.features,
                       first = shape_.first, second = shape_.second;
     const std::size_t whole = normals + 2; // columns of inputs that concern the whole surfel
     std::array<Values, 2> given;
@@ -170,19 +170,20 @@ void RingNetwork::value(const Hidden& h, const LastLayer& last, Values& values) 
 
 /// h for inputs of 0, for which all azimuths are equal.
 std::array<float, RingNetwork::hidden> RingNetwork::hidden_on_plane(const Condition& condition) const {
-    const std::size_t normals = shape_.normals, first = shape_.first, second = shape_.second, whole = normals + 2;
+    const std::size_t normals = shape_.shared, first = shape_.first, second = shape_.second, whole = normals + 2;
     const auto of_condition = [&](const float* row) {
         return row[normals] * condition.resolution + row[normals + 1] * condition.two_sided;
     };
-    std::vector<float> e(first), f(second);
+    std::array<float, most_units> e, f;
     for (std::size_t o = 0; o < first; ++o)
         e[o] = std::max(first_bias_[o] + of_condition(shared_ + o * whole), 0.0f);
     for (std::size_t o = 0; o < second; ++o)
-        f[o] = std::max(std::inner_product(e.begin(), e.end(), second_ + o * first, second_bias_[o]), 0.0f);
+        f[o] = std::max(std::inner_product(e.begin(), e.begin() + first, second_ + o * first, second_bias_[o]), 0.0f);
     std::array<float, hidden> h;
     for (std::size_t o = 0; o < hidden; ++o) {
         const float* const row = third_ + o * (second + whole);
-        h[o] = std::max(std::inner_product(f.begin(), f.end(), row, third_bias_[o]) + of_condition(row + second), 0.0f);
+        h[o] = std::max(
+            std::inner_product(f.begin(), f.begin() + second, row, third_bias_[o]) + of_condition(row + second), 0.0f);
     }
     return h;
 }

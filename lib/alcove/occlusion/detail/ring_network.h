@@ -25,7 +25,7 @@ class RingNetwork {
         float two_sided;  ///< 1 for sheets, else 0
     };
     struct Shape {
-        std::size_t normals, azimuths, features, first, second; ///< sizes of n, a, r_a, e_a and f_a
+        std::size_t shared, azimuths, features, first, second; ///< sizes of n, a, r_a, e_a and f_a
     };
     /// The number of coefficients.
     static std::size_t size(const Shape& shape);

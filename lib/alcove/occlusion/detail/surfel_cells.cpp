@@ -15,7 +15,7 @@ namespace alcove {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes the points of the ranges within the bounds to `found`, which has room for a vector more than all of them.
+/// Writes the points of the ranges within the bounds to `found`, which has room for all of them and one SIMD vector.
 std::size_t find_within(const SurfelCells::Points& points, std::span<const SurfelCells::Range> ranges,
                         const Bounds& bounds, std::uint32_t* found) {
     const hn::CappedTag<float, 16> d;
@@ -74,9 +74,13 @@ SurfelCells::SurfelCells(std::span<const Surfel> surfels, float cell) : blocks_(
     const Vec3 size = bounds.high - bounds.low;
     scale_ = 1.0f / std::max(cell, std::max({size.x, size.y, size.z}) / most_cells);
     last_ = scale_ * size;
+    constexpr std::size_t fewest_blocks = 1000, least_per_block = 8; // where surfels are dense, a hundred per block
     HugeVector<std::uint32_t> cell_of(surfels.size());
     for (std::size_t i = 0; i < surfels.size(); ++i)
         if (surfels[i].has_normal()) {
+            is_sparse_ = block_count_ > fewest_blocks && least_per_block * block_count_ > surfels.size();
+            if (is_sparse_)
+                return;
             const Cell at = cell_at(surfels[i].position);
             cell_of[i] = static_cast<std::uint32_t>(cells_per_block * find_or_add(at) + within_block(at));
             ++begins_[cell_of[i] + 1];

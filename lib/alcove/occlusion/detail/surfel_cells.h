@@ -27,6 +27,9 @@ class SurfelCells {
     /// Cost: about 40 ns per surfel.
     SurfelCells(std::span<const Surfel> surfels, float cell);
 
+    /// Whether there are so few surfels per cell that cells waste memory. No other function may be called then.
+    bool is_sparse() const { return is_sparse_; }
+
     struct Range {
         std::uint32_t begin, end;
     };
@@ -73,6 +76,7 @@ class SurfelCells {
     Vec3 low_, last_; ///< the corner of cell 0; the last cell along each axis
     float scale_;     ///< cells per length
     std::vector<Block> blocks_;
+    bool is_sparse_ = false;
     std::size_t block_count_ = 0;
     std::vector<std::uint32_t> begins_{0}; ///< of the cells in points_, and their end
     Points points_;

@@ -14,8 +14,8 @@ namespace alcove {
 ///
 /// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. What
 /// they are, and the error on meshes it was not trained on, is in docs/calibrated.md. All x are 0 over a plane, where ao
-/// is 1 by construction, and independent of scale. The network was not trained on surfels that touch other faces: these
-/// get 32 rays, as in Traced. Source: probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13,
+/// is 1 by construction, as far as the bands of the field reach, and independent of scale. Surfels that touch other
+/// faces get 32 rays, as in Traced. Source: probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13,
 /// 38 or 63 map() calls per surfel, and 0.05, 0.1 or 0.2 µs.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
@@ -29,7 +29,8 @@ struct Calibrated {
         "clamp(1 + N(x, c) - N(0, c)), x = cos t - d(p + h w_t)/h for each probe, N a trained network";
     static constexpr std::string_view source = "trained on exact rays: see docs/calibrated.md";
     static constexpr std::string_view cost = "38 map() calls per point; 13 if samples is below 38, 63 if it is 63";
-    static constexpr std::string_view good = "closest to exact rays for so few probes; no noise; exact on planes";
+    static constexpr std::string_view good =
+        "closest to exact rays for so few probes; no noise; almost exact on planes";
     static constexpr std::string_view bad =
         "no bound on its error: reliable only on shapes like those it was trained on; weak in wide cavities";
 

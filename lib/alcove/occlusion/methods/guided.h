@@ -10,8 +10,9 @@ namespace alcove {
 ///
 ///  1. Trace. An additive recurrence in the Morton rank shifts the lattice of directions, so that the rays of
 ///     neighbouring surfels are low-discrepancy together (Roberts 2018).
-///  2. Predict. A ridge regression m predicts v from 38 probes of Calibrated and the hidden layer of its network. It is
-///     fitted to the rays of all surfels (Hoerl and Kennard 1970).
+///  2. Predict. A ridge regression m predicts v from the probes of Calibrated along the normal, the mean of each of its
+///     rings, and the hidden layer of its network (38 probes). It is fitted to the rays of all surfels (Hoerl and
+///     Kennard 1970).
 ///  3. Filter. The residuals r = v − m are averaged over neighbours, weighted by distance, by normals (0 beyond a
 ///     right angle) and by the difference of their probes. This excludes the other side of a sheet and the other
 ///     face of a crease (Buades et al. 2005). With weights w, variance σ² of the mean of one surfel's rays and
