@@ -88,6 +88,22 @@ TEST(Bake, FitsTheNetworkToTheMesh) {
     }
 }
 
+/// Other attributes need wider bands, whose distances the networks were not trained on.
+TEST(Bake, AoDoesNotDependOnTheOtherAttributes) {
+    const Mesh mesh = test::RealMesh("elephant.off").mesh;
+    for (const double probes : {13.0, 38.0, 63.0}) {
+        BakeOptions options{
+            .radius = "50%", .method = "calibrated", .parameters = {{"samples", probes}}, .pilot = false};
+        const Baked alone = bake(mesh, options);
+        options.attributes = Channel::ao | Channel::thickness;
+        const Baked together = bake(mesh, options);
+        double squares = 0.0;
+        for (std::size_t v = 0; v < alone.ao().size(); ++v)
+            squares += std::pow(double(alone.ao()[v]) - together.ao()[v], 2);
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(alone.ao().size())), 0.002) << probes;
+    }
+}
+
 TEST(Bake, PointsAtTheVerticesHaveTheirValues) {
     // Smooth, so that the faces of a vertex are within 60° of its normal and count as the own faces of the point.
     Mesh mesh = sphere_mesh(4);

@@ -6,6 +6,7 @@
 #include "alcove/occlusion/detail/ring_network.h"
 #include "alcove/occlusion/estimator.h"
 
+#include <limits>
 #include <numbers>
 
 namespace alcove {
@@ -65,6 +66,23 @@ RingNetwork::Condition calibrated_condition(const F& field, float radius) {
     return {std::clamp(size, least, most), two_sided(field) ? 1.0f : 0.0f};
 }
 
+/// The distances that a grid knows on the level for a probe, with the default bands of GridOptions. The networks are
+/// trained on these, and a grid may have wider bands for other attributes.
+struct KnownDistances {
+    float least = -std::numeric_limits<float>::infinity(), most = std::numeric_limits<float>::infinity();
+
+    KnownDistances(float finest_voxel, float reach) {
+        constexpr float inner_band = 2.0f, outer_band = 5.0f; // voxels
+        if (finest_voxel <= 0.0f)
+            return;
+        float voxel = finest_voxel;
+        while ((outer_band - 1.0f) * voxel < reach)
+            voxel *= 2.0f;
+        least = -inner_band * voxel;
+        most = outer_band * voxel;
+    }
+};
+
 /// Computes the network inputs of a batch. For a probe at distance h, tilted by θ: x = cos θ − d/h, clamped to
 /// [−1, 1.5]. 0 over a plane within the bands, negative over convex surfaces, positive near an occluder; independent of scale and radius.
 /// Cost: one map() call per probe and surfel.
@@ -88,10 +106,12 @@ void calibrated_inputs(const F& field, const SurfelBatch& surfels, float radius,
             points.z[k] = surfels.z[k] + along * tangent.z[k] + across * bitangent.z[k] + up * surfels.nz[k];
         }
         SurfelBatch::Values distances;
-        map_probes(field, points, surfels.count, probe.fine ? 0.5f * height : height, distances.data());
+        const float reach = probe.fine ? 0.5f * height : height;
+        map_probes(field, points, surfels.count, reach, distances.data());
+        const KnownDistances known(resolution(field), reach);
         const float per_height = 1.0f / height;
         for (std::size_t k = 0; k < surfels.count; ++k)
-            input[k] = std::clamp(cosine - distances[k] * per_height, -1.0f, 1.5f);
+            input[k] = std::clamp(cosine - std::clamp(distances[k], known.least, known.most) * per_height, -1.0f, 1.5f);
     };
     std::size_t at = 0;
     for (const CalibratedProbe& probe : Probes::normal)
