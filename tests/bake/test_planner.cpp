@@ -110,6 +110,7 @@ TEST_F(Planning, ChoosesCountsOfRaysBetweenThoseOfTheTable) {
 
 TEST_F(Planning, TriesAFewRaysBeforeMany) {
     PlanRequest wanted = request(0.009);
+    wanted.method = &find_method("guided");
     wanted.surfels = 100'000'000; // with the same triangles: rays dominate the cost, not the grid
     Planner planner(wanted, pilot_);
     const Plan few = planner.next();
