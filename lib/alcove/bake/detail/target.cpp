@@ -187,7 +187,7 @@ class TargetBake {
     /// The error of a plan of the field on an eighth of many surfels, so that a plan that misses costs little. They are
     /// runs along the Morton curve, since neighbours share rays. Nothing for few surfels, or if there is no such grid.
     std::optional<double> rmse_on_sample(const Plan& plan, bool has_grid) {
-        constexpr std::size_t many_surfels = 100'000, runs = 16, stride = sample_stride;
+        constexpr std::size_t many_surfels = 100'000, runs = 64, stride = sample_stride;
         if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
             return {};
         if (sample_.empty()) {
