@@ -145,7 +145,7 @@ TEST_F(Planning, TriesWhatIsFarCheaperAndMayHoldTheError) {
     Planner planner(wanted, pilot_);
     const Plan trial = planner.next();
     EXPECT_TRUE(is_calibrated(trial));
-    planner.update(trial, trial.rmse);
+    planner.update(trial, 1.5 * trial.rmse);
     EXPECT_FALSE(is_calibrated(planner.next())) << "it is ruled out";
     wanted.error = least / 2.0;
     EXPECT_FALSE(is_calibrated(Planner(wanted, pilot_).next())) << "too unlikely to meet the error";

@@ -215,7 +215,9 @@ const Planner::Candidate& Planner::cheap_trial_before(const Candidate& planned) 
     const Candidate* trial = &planned;
     double saved = 0.0;
     for (const Candidate& other : candidates_) {
-        if (is_known(other.plan.choice.method))
+        // A method that missed may still meet the error with a little more.
+        constexpr double little = 1.1;
+        if (other.tried || (is_known(other.plan.choice.method) && other.plan.rmse > little * error_))
             continue;
         const bool same_grid = other.plan.largest_voxel == planned.plan.largest_voxel,
                    same_tree = other.plan.choice.method->needs_mesh && planned.plan.choice.method->needs_mesh;

@@ -49,7 +49,7 @@ class Planner {
     Planner(const PlanRequest& request, const Pilot& pilot);
 
     /// The cheapest untried plan that is expected to meet the error, or a trial before it: a method without a measured
-    /// error that is so cheap that trying it saves time on average, or, where guided would need many rays, guided with
+    /// error, or one just above the wanted one, that is so cheap that trying it saves time on average, or, where guided would need many rays, guided with
     /// a third of them. \throw LimitError if no grid for the named method fits in memory.
     Plan next() const;
     /// The same without these trials: the plan that is most likely to end the search.
