@@ -77,8 +77,9 @@ The RMSE against 1,024 exact rays, at up to 1,000 vertices of each mesh, on the 
 the networks as they were trained, and with the last layer fitted to the mesh, as a bake with a pilot does. Meshes of
 fewer than 200 vertices are not fitted. Half of the meshes of the archive, chosen by name, were held out from training.
 The networks were trained on the other half and on 640 random scenes (fit/scenes.h). The errors that matter are those on
-held-out meshes, and on generated parts, which come from another generator than the scenes. The standard deviation of the reference is the RMSE
-of the best constant. All meshes have the same weight. To train the networks and write this page:
+held-out meshes, and on generated parts, which come from another generator than the scenes. The standard deviation of
+the reference is the RMSE of the best constant. All meshes have the same weight. To train the networks and write this
+page:
 
     fit/fit_calibrated.sh
 

@@ -72,7 +72,8 @@ struct BakeOptions {
     /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.
     bool keep_grid = false;
 
-    /// Measure the error of the bake with reference rays, and fit `calibrated` to some of them. A planned bake needs this.
+    /// Measure the error of the bake with reference rays, and fit `calibrated` to some of them. A planned bake needs
+    /// this.
     bool pilot = true;
     /// Wall-clock seconds from the call, > 0. A bake whose estimate clearly exceeds this is refused; a running one is
     /// not stopped.
@@ -152,17 +153,16 @@ struct SurfacePoint {
     std::uint32_t face = no_face;
 };
 
-/// Bakes points on or near a mesh, as above. `normals`, `weld` and `self` have no effect. A point without a normal or with a
-/// non-finite position gets ChannelInfo::missing (ao = 1). \throw as above, and InputError for a face index that is out
-/// of range.
+/// Bakes points on or near a mesh, as above. `normals`, `weld` and `self` have no effect. A point without a normal or
+/// with a non-finite position gets ChannelInfo::missing (ao = 1). \throw as above, and InputError for a face index that
+/// is out of range.
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
 
 /// Splits faces where ao between the vertices differs from its interpolation by more than `error` (or the RMSE of
 /// `quality`), so that vertex values can represent it: a floor of one quad under a box gets the shadow of the box.
 /// Edges up to 1/16 of the radius, or of a quarter of the diagonal if that is less, are not split. The result has at
 /// most a million faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in
-/// tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no
-/// effect.
+/// tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
 ///
 /// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
 /// as bake() and tessellate().

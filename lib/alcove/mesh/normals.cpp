@@ -38,8 +38,8 @@ double angle_of(double y, double x) {
     return x < 0.0 ? std::numbers::pi - from_x : from_x;
 }
 
-/// The weights of a triangle's normal at its corners. `cross` is the length of the cross product of its sides `a` and `b`,
-/// and `dot` their scalar product.
+/// The weights of a triangle's normal at its corners. `cross` is the length of the cross product of its sides `a` and
+/// `b`, and `dot` their scalar product.
 std::array<double, 3> weights_of(Weight weight, const Vec3d& a, double dot, double cross) {
     if (weight == Weight::area)
         return {cross, cross, cross};

@@ -48,9 +48,10 @@ class Planner {
   public:
     Planner(const PlanRequest& request, const Pilot& pilot);
 
-    /// The cheapest untried plan that is expected to meet the error, or a trial before it: a method without a measured
-    /// error, or one just above the wanted one, that is so cheap that trying it saves time on average, or, where guided would need many rays, guided with
-    /// a third of them. \throw LimitError if no grid for the named method fits in memory.
+    /// The cheapest untried plan that is expected to meet the error, or a trial before it. A trial is a plan that may
+    /// miss the error, but is so cheap that trying it saves time on average; its method has no measured error yet, or one
+    /// that leads to expect at most a tenth above the wanted one. Where guided would need many rays, the trial is guided
+    /// with a third of them. \throw LimitError if no grid for the named method fits in memory.
     Plan next() const;
     /// The same without these trials: the plan that is most likely to end the search.
     Plan expected() const;
