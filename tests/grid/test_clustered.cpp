@@ -1,6 +1,7 @@
 #include "alcove/field/detail/bricks.h"
 #include "alcove/grid/detail/clustered.h"
 #include "alcove/grid/detail/plan.h"
+#include "alcove/grid/detail/sign.h"
 
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
@@ -35,8 +36,12 @@ Mesh noisy(Mesh mesh, double size) {
     return mesh;
 }
 
+ClusteredSurface clustered(const Surface& surface, double cell) {
+    return {surface, balanced(surface.triangles), cell};
+}
+
 ClusteredSurface clustered(const Mesh& mesh, double cell) {
-    return ClusteredSurface({mesh.positions, triangulate(mesh).triangles}, cell);
+    return clustered({mesh.positions, triangulate(mesh).triangles}, cell);
 }
 
 TEST(ClusteredSurface, HasTheTrianglesThatCellsTell) {
@@ -54,7 +59,7 @@ TEST(ClusteredSurface, IsTheSameWhereEveryVertexHasItsCell) {
     Mesh moved;
     test::add_part(moved, mesh, 1.0, Vec3d(9.25));
     const std::vector<Triangle> triangles = triangulate(moved).triangles;
-    const ClusteredSurface reduced({moved.positions, triangles}, 0.5);
+    const ClusteredSurface reduced = clustered(Surface{moved.positions, triangles}, 0.5);
     EXPECT_TRUE(std::ranges::equal(reduced.surface().positions, moved.positions));
     EXPECT_TRUE(std::ranges::equal(reduced.surface().triangles, triangles));
 }
@@ -165,7 +170,8 @@ TEST(ClusteredSurface, VerticesOfNoTriangleTakeNoPart) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     std::vector<Vec3d> more = mesh.positions;
     more.insert(more.end(), {more[0] + 0.01, Vec3d(NAN), Vec3d(INFINITY, 0, 0)});
-    const ClusteredSurface reduced({mesh.positions, triangles}, 0.5), with({more, triangles}, 0.5);
+    const ClusteredSurface reduced = clustered(Surface{mesh.positions, triangles}, 0.5),
+                           with = clustered(Surface{more, triangles}, 0.5);
     EXPECT_TRUE(std::ranges::equal(with.surface().triangles, reduced.surface().triangles));
     EXPECT_TRUE(std::ranges::equal(with.surface().positions.first(reduced.surface().positions.size()),
                                    reduced.surface().positions));

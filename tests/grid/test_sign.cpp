@@ -55,6 +55,23 @@ TEST(Solidity, ShellsInShellsAreSheets) {
     EXPECT_EQ(grid_of(together(cube({0, 0, 0}, 3.0), cube({1, 1, 1}, 1.0))).sign, Sign::sheet);
 }
 
+TEST(Solidity, CrossingPartsAreOneSolid) {
+    expect_silent_solid(together(cube({0, 0, 0}, 2.0), cube({1.01, 1.01, 1.01}, 2.0)));
+    const GridStack stack = grid_of(together(cube({0, 0, 0}, 2.0), inverted(cube({1.01, 1.01, 1.01}, 2.0))));
+    ASSERT_EQ(stack.warnings.size(), 1u);
+    EXPECT_NE(stack.warnings[0].find("1 of 2 parts face inward"), std::string::npos) << stack.warnings[0];
+}
+
+/// The cube in the middle is buried, but belongs to the whole, as its vertices are those of its neighbours.
+TEST(Solidity, CubesThatTouchAreOneSolid) {
+    Mesh cubes;
+    for (int i = 0; i < 27; ++i) {
+        const Mesh next = cube({i / 9, i / 3 % 3, i % 3}, 1.0);
+        cubes = i == 0 ? next : together(cubes, next);
+    }
+    expect_silent_solid(cubes);
+}
+
 TEST(Solidity, FacesThatTurnTheWrongWayAreTold) {
     std::vector<Face> faces = faces_of(cube());
     std::reverse(faces[2].begin(), faces[2].end());

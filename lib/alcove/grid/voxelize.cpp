@@ -84,13 +84,14 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     // The sign uses all triangles, distances only those that clustering keeps.
     const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
+    const bool is_balanced = balanced(triangles);
     std::optional<ClusteredSurface> clustered;
     if (plan.cluster) {
-        clustered.emplace(whole, cluster_cell);
+        clustered.emplace(whole, is_balanced, cluster_cell);
         check_clustered(plan, clustered->surface().triangles.size(), options.grid);
         stack.clustered = clustered->surface().triangles.size() < triangles.size();
     }
-    stack.sign = choose_sign(options.sign, mesh, columns, positions, triangles, stack.warnings);
+    stack.sign = choose_sign(options.sign, mesh, columns, is_balanced, positions, triangles, stack.warnings);
     Surface near = clustered ? clustered->surface() : whole;
     std::vector<Triangle> single;
     if (stack.sign == Sign::sheet) {
@@ -136,8 +137,8 @@ Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles) {
     const Frame frame = frame_of(box);
     const HugeVector<Vec3d> positions = index_positions(mesh, frame, place(box, frame, plan, {}));
     std::vector<std::string> warnings;
-    return choose_sign(SignChoice::automatic, mesh, WindingColumns(positions, triangles), positions, triangles,
-                       warnings);
+    return choose_sign(SignChoice::automatic, mesh, WindingColumns(positions, triangles), balanced(triangles),
+                       positions, triangles, warnings);
 }
 
 }

@@ -20,9 +20,11 @@ std::vector<std::uint8_t> Mesh::used_vertices() const {
 Box Mesh::box() const {
     const std::vector<std::uint8_t> used = used_vertices();
     Box box;
-    for (std::size_t v = 0; v < positions.size(); ++v)
-        if (used[v] && is_finite(positions[v]))
-            box.add(positions[v]);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const Vec3d& p = positions[v];
+        if (used[v] && p.x - p.x + (p.y - p.y) + (p.z - p.z) == 0.0) // is finite, with a single branch
+            box.add(p);
+    }
     return box;
 }
 

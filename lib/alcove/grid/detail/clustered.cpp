@@ -1,10 +1,11 @@
 #include "alcove/grid/detail/clustered.h"
 
 #include "alcove/base/parallel.h"
-#include "alcove/grid/detail/sign.h"
 #include "alcove/mesh/detail/edge_table.h"
 #include "alcove/mesh/detail/weld.h"
 
+#include <algorithm>
+#include <atomic>
 #include <vector>
 
 namespace alcove {
@@ -42,36 +43,48 @@ void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, con
 }
 
 /// The sets of vertices that share a cube and are connected within it.
-DisjointSets clusters_of(const Surface& surface, double cell) {
+DisjointSets clusters_of(const Surface& surface, bool is_balanced, double cell) {
     const HugeVector<std::uint64_t> cells = cells_of(surface.positions, cell);
     DisjointSets clusters(cells.size());
-    if (!balanced(surface.triangles)) { // otherwise seams would open
+    if (!is_balanced) { // otherwise seams would open
         const std::vector<std::uint32_t> first = weld(surface.positions);
         for (std::uint32_t v = 0; v < first.size(); ++v)
             clusters.join(v, first[v]);
     }
-    for (const auto& [a, b, c] : surface.triangles) {
-        if (cells[a] == cells[b])
+    // The edges of a balanced surface have both directions: only one is visited. A single branch is rarely mispredicted.
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        if (((a < b) | !is_balanced) & (cells[a] == cells[b]) & !clusters.surely_joined(a, b))
             clusters.join(a, b);
-        if (cells[b] == cells[c])
-            clusters.join(b, c);
-        if (cells[c] == cells[a])
-            clusters.join(c, a);
+    };
+    for (const auto& [a, b, c] : surface.triangles) {
+        join(a, b);
+        join(b, c);
+        join(c, a);
     }
     return clusters;
 }
 
 }
 
-ClusteredSurface::ClusteredSurface(const Surface& surface, double cell) {
-    const std::vector<std::uint32_t> cluster_of = merge(surface, cell);
+ClusteredSurface::ClusteredSurface(const Surface& surface, bool is_balanced, double cell) {
+    const std::vector<std::uint32_t> cluster_of = merge(surface, is_balanced, cell);
     const auto renamed = [&](const Triangle& t) {
         return Triangle{cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]};
     };
     const auto is_triangle = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
+    const double far2 = 12.0 * cell * cell; // twice the diagonal of a cube, squared
+    const auto far = [&](std::uint32_t a, std::uint32_t b) {
+        const Vec3d offset = positions_[a] - positions_[b];
+        return a != b && glm::dot(offset, offset) > far2;
+    };
+    const auto is_strut = [&](const Triangle& t) { return far(t[0], t[1]) || far(t[1], t[2]); }; // if collapsed
+    std::atomic<bool> any_strut{false};
     collect(surface.triangles, triangles_, [&](const Triangle& t, std::vector<Triangle>& kept) {
-        if (const Triangle now = renamed(t); is_triangle(now))
+        const Triangle now = renamed(t);
+        if (is_triangle(now))
             kept.push_back(now);
+        else if (is_strut(now))
+            any_strut = true;
     });
 
     // Find the collapsed triangles that no kept triangle covers; this needs all kept triangles.
@@ -79,16 +92,13 @@ ClusteredSurface::ClusteredSurface(const Surface& surface, double cell) {
     for (const Triangle& t : triangles_)
         for (const std::uint32_t v : t)
             unused[v] = 0;
-    const double far2 = 12.0 * cell * cell; // twice the diagonal of a cube, squared
-    const auto far = [&](std::uint32_t a, std::uint32_t b) {
-        const Vec3d offset = positions_[a] - positions_[b];
-        return a != b && glm::dot(offset, offset) > far2;
-    };
+    if (!any_strut && std::find(unused.begin(), unused.end(), 1) == unused.end())
+        return;
     HugeVector<Triangle> uncovered;
     collect(surface.triangles, uncovered, [&](const Triangle& t, std::vector<Triangle>& kept) {
         const Triangle now = renamed(t);
         const auto& [a, b, c] = now;
-        if (!is_triangle(now) && ((unused[a] | unused[b] | unused[c]) != 0 || far(a, b) || far(b, c)))
+        if (!is_triangle(now) && ((unused[a] | unused[b] | unused[c]) != 0 || is_strut(now)))
             kept.push_back(t);
     });
     positions_.reserve(positions_.size() + 3 * uncovered.size());
@@ -102,8 +112,8 @@ ClusteredSurface::ClusteredSurface(const Surface& surface, double cell) {
 }
 
 /// Returns the index of each vertex's cluster.
-std::vector<std::uint32_t> ClusteredSurface::merge(const Surface& surface, double cell) {
-    DisjointSets clusters = clusters_of(surface, cell);
+std::vector<std::uint32_t> ClusteredSurface::merge(const Surface& surface, bool is_balanced, double cell) {
+    DisjointSets clusters = clusters_of(surface, is_balanced, cell);
     std::vector<std::uint32_t> cluster_of = huge_vector<std::uint32_t>(surface.positions.size());
     std::vector<double> counts;
     positions_.reserve(cluster_of.size()); // untouched capacity costs nothing

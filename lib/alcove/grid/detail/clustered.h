@@ -25,13 +25,14 @@ struct Surface {
 /// the number of threads. Cost: about 20 ns per triangle, plus 50 ns per vertex where edges are open.
 class ClusteredSurface {
   public:
+    /// `is_balanced`: see balanced(); if not, coincident vertices are joined first.
     /// \pre finite positions are in [0, 2^21) cells
-    ClusteredSurface(const Surface& surface, double cell);
+    ClusteredSurface(const Surface& surface, bool is_balanced, double cell);
 
     Surface surface() const { return {positions_, triangles_}; }
 
   private:
-    std::vector<std::uint32_t> merge(const Surface& surface, double cell);
+    std::vector<std::uint32_t> merge(const Surface& surface, bool is_balanced, double cell);
 
     HugeVector<Vec3d> positions_;
     HugeVector<Triangle> triangles_;

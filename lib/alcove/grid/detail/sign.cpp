@@ -1,5 +1,6 @@
 #include "alcove/grid/detail/sign.h"
 
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/parallel.h"
 #include "alcove/mesh/detail/edge_table.h"
 #include "alcove/mesh/detail/weld.h"
@@ -31,26 +32,44 @@ void warn_of_orientation(const Closedness& surface, std::vector<std::string>& wa
                         surface.inverted_components, surface.components));
 }
 
-/// Whether some connected part of the surface almost nowhere separates inside from outside.
-bool buries_a_part(const WindingColumns& columns, std::span<const Vec3d> positions,
-                   std::span<const Triangle> triangles) {
-    const std::vector<std::uint32_t> joined = weld(positions);
-    DisjointSets parts(joined.size());
-    for (const Triangle& t : triangles)
-        for (const std::uint32_t v : t)
-            parts.join(joined[t[0]], joined[v]);
+/// The parts that share vertices. Coincident vertices are not joined.
+DisjointSets parts_as_indexed(std::size_t vertices, std::span<const Triangle> triangles) {
+    DisjointSets parts(vertices);
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        if (!parts.surely_joined(a, b))
+            parts.join(a, b);
+    };
+    for (const Triangle& t : triangles) {
+        join(t[0], t[1]);
+        join(t[0], t[2]);
+    }
+    return parts;
+}
+
+/// Whether some part of the surface almost nowhere separates inside from outside.
+bool buries_a_part(const WindingColumns& columns, std::span<const Triangle> triangles, DisjointSets& parts) {
     struct Crossings {
         std::size_t all = 0, bounding = 0;
     };
-    std::vector<Crossings> counts(joined.size());
+    std::vector<Crossings> counts = huge_vector<Crossings>(parts.size());
     columns.for_each_crossing([&](std::uint32_t triangle, bool bounding) {
-        Crossings& part = counts[parts.find(joined[triangles[triangle][0]])];
+        Crossings& part = counts[parts.find(triangles[triangle][0])];
         ++part.all;
         part.bounding += bounding;
     });
     return std::any_of(counts.begin(), counts.end(), [](const Crossings& part) {
         return static_cast<double>(part.bounding) < min_bounding * static_cast<double>(part.all);
     });
+}
+
+/// Whether some part of a closed surface has a negative volume.
+bool inverts_a_part(std::span<const Vec3d> positions, std::span<const Triangle> triangles, DisjointSets& parts) {
+    std::vector<double> volumes = huge_vector<double>(parts.size());
+    const Vec3d centre = positions[triangles[0][0]];
+    for (const auto& [a, b, c] : triangles)
+        volumes[parts.find(a)] +=
+            glm::dot(positions[a] - centre, glm::cross(positions[b] - centre, positions[c] - centre));
+    return std::any_of(volumes.begin(), volumes.end(), [](double volume) { return volume < 0.0; });
 }
 
 }
@@ -76,11 +95,17 @@ bool balanced(std::span<const Triangle> triangles) {
     return total == 0;
 }
 
-Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns, std::span<const Vec3d> positions,
-                 std::span<const Triangle> triangles, std::vector<std::string>& warnings) {
+Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& columns, bool is_balanced,
+                 std::span<const Vec3d> positions, std::span<const Triangle> triangles,
+                 std::vector<std::string>& warnings) {
     const double leaking = columns.leaking();
     const bool overlapping = columns.overlapping();
-    const bool sound = leaking == 0.0 && !overlapping && balanced(triangles);
+    // A part consists of parts as indexed, which are found faster: if none of these is buried or inverted, no part is.
+    const auto no_part_is_wrong = [&] {
+        DisjointSets parts = parts_as_indexed(positions.size(), triangles);
+        return !buries_a_part(columns, triangles, parts) && !inverts_a_part(positions, triangles, parts);
+    };
+    const bool sound = leaking == 0.0 && is_balanced && (!overlapping || no_part_is_wrong());
     const Closedness shape = sound ? Closedness{} : closedness(mesh);
     warn_of_orientation(shape, warnings);
     if (choice == SignChoice::sheet)
@@ -95,13 +120,19 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
     }
     if (columns.hollow())
         return Sign::sheet;
-    if (sound)
-        return Sign::solid;
-    if (!shape.closed() || leaking > 0.0)
+    if (!sound && (!shape.closed() || leaking > 0.0))
         return Sign::sheet;
     if (!overlapping)
         return Sign::solid;
-    return columns.in_air() > max_in_air || buries_a_part(columns, positions, triangles) ? Sign::sheet : Sign::solid;
+    if (columns.in_air() > max_in_air)
+        return Sign::sheet;
+    if (sound)
+        return Sign::solid;
+    DisjointSets parts = parts_as_indexed(positions.size(), triangles);
+    const std::vector<std::uint32_t> first = weld(positions);
+    for (std::uint32_t v = 0; v < first.size(); ++v)
+        parts.join(v, first[v]);
+    return buries_a_part(columns, triangles, parts) ? Sign::sheet : Sign::solid;
 }
 
 }

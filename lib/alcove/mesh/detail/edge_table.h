@@ -63,11 +63,14 @@ class EdgeTable {
 class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count);
+    std::size_t size() const { return parent_.size(); }
     std::uint32_t find(std::uint32_t i) {
         while (parent_[i] != i)
             i = parent_[i] = parent_[parent_[i]];
         return i;
     }
+    /// Whether both are in one set, if that is quickly seen.
+    bool surely_joined(std::uint32_t a, std::uint32_t b) const { return parent_[a] == parent_[b]; }
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a);
         b = find(b);
