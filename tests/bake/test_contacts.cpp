@@ -81,8 +81,9 @@ std::vector<Way> runs() {
     return {{"exact", with_rays("exact", 1024)},
             {"guided", with_rays("guided", 256)},
             {"traced", with_rays("traced", 256)},
-            {"calibrated", {.method = "calibrated"}, 0.08},
-            {"planned", {.quality = Quality::fine}}};
+            {"calibrated", {.method = "calibrated"}, 0.05},
+            {"default", {}},
+            {"fine", {.quality = Quality::fine}}};
 }
 
 struct Expected {

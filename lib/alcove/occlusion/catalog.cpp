@@ -44,11 +44,14 @@ E estimator_of(const Settings& settings) {
 }
 
 template <class E>
-E fitted(const AnyField& field, const Settings& settings) {
+E fitted(const Occluders& occluders, const Settings& settings) {
     E estimator = estimator_of<E>(settings);
-    if constexpr (requires { estimator.fit(field, *settings.labels); })
+    if constexpr (requires { estimator.fit(occluders.field(), *settings.labels); })
         if (settings.labels)
-            estimator.fit(field, *settings.labels);
+            estimator.fit(occluders.field(), *settings.labels);
+    if constexpr (requires { estimator.mesh = occluders.rays(); })
+        if (occluders.has_rays())
+            estimator.mesh = occluders.rays();
     return estimator;
 }
 
@@ -77,7 +80,7 @@ constexpr Method method() {
                 else if constexpr (on_mesh)
                     return evaluate(surfels, order, occluders.rays(), estimator_of<E>(settings), wanted, progress);
                 else
-                    return evaluate(surfels, order, occluders.field(), fitted<E>(occluders.field(), settings), wanted,
+                    return evaluate(surfels, order, occluders.field(), fitted<E>(occluders, settings), wanted,
                                     progress);
             }};
 }

@@ -67,6 +67,7 @@ class Occluders {
     const AnyField& field() const;
     /// \throw InputError if there are no triangles.
     const RaySurface& rays() const;
+    bool has_rays() const { return rays_.has_value(); }
 
   private:
     std::optional<AnyField> field_;

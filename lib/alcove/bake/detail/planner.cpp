@@ -3,7 +3,7 @@
 #include "alcove/bake/detail/plan_table.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/plan.h"
-#include "alcove/occlusion/methods/exact.h"
+#include "alcove/occlusion/methods/calibrated.h"
 
 #include <fmt/format.h>
 
@@ -101,7 +101,10 @@ void Planner::add(const PlanRequest& request, Plan plan, double seconds_per_surf
     const double grid = request.has_grid ? 0.0 : grid_seconds(request, plan.largest_voxel);
     const double tree = method.needs_mesh ? tree_seconds(request) : 0.0;
     const double per_surfel = plan.choice.rays() * ray_seconds(request) + seconds_per_surfel;
-    plan.seconds = grid + tree + static_cast<double>(request.surfels) * per_surfel;
+    const double at_contacts =
+        method.name == Calibrated::name ? Calibrated::rays_at_contacts * ray_seconds(request) : 0.0;
+    plan.seconds = grid + tree + static_cast<double>(request.surfels) * per_surfel +
+                   static_cast<double>(request.contacts) * at_contacts;
     candidates_.push_back({plan, grid, tree, is_bound});
 }
 

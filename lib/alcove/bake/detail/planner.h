@@ -16,7 +16,9 @@ struct PlanRequest {
     Via via = Via::automatic;
     const Method* method = nullptr; ///< the only method to plan with: exact, guided or calibrated; null: any
     std::uint32_t seed = 0;
-    std::size_t surfels = 0, triangles = 0;
+    std::size_t surfels = 0;
+    std::size_t contacts = 0; ///< surfels that touch other faces
+    std::size_t triangles = 0;
     double area = 0.0; ///< of the triangles, unit space
     /// The finest voxel of a grid that fits in memory, unit space, from finest_voxel() in grid/detail/plan.h.
     double finest_voxel = 0.0;

@@ -11,14 +11,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace alcove {
 namespace {
 
-OccluderNeeds needs_of(const Method& method, ChannelSet wanted) {
-    OccluderNeeds needs;
+OccluderNeeds needs_of(const Method& method, ChannelSet wanted, bool has_contacts = false) {
+    OccluderNeeds needs{.field = false, .rays = has_contacts};
     for (const Method* needed : methods_for(method, wanted))
         needs = {needs.field || needed->needs_grid, needs.rays || needed->needs_mesh};
     return needs;
@@ -110,7 +111,13 @@ class TargetBake {
         const RaySurface& rays = occluders_.rays();
         Stopwatch watch;
         alcove::find_contacts(target_.surfels, rays, ray_offset(target_.radius), target_.is_own_face);
+        contacts_ = static_cast<std::size_t>(std::count_if(target_.surfels.begin(), target_.surfels.end(),
+                                                           [](const Surfel& s) { return s.away != Vec3(0.0f); }));
         result_.seconds.grid += watch.lap();
+    }
+
+    OccluderNeeds needs_of(const Method& method, ChannelSet wanted) const {
+        return alcove::needs_of(method, wanted, contacts_ > 0);
     }
 
     static bool is_planned(const Method& method) {
@@ -120,7 +127,7 @@ class TargetBake {
     /// Whether there is a grid regardless of the plan, so the planner cannot choose its voxel.
     bool has_fixed_grid() const {
         return target_.grid || task_.keep_grid || target_.voxelizing.grid.voxel > 0.0f ||
-               needs_of(find_method("exact"), task_.attributes).field;
+               alcove::needs_of(find_method("exact"), task_.attributes).field;
     }
 
     bool has_pilot() const { return task_.pilot && task_.attributes.has(Channel::ao); }
@@ -222,6 +229,7 @@ class TargetBake {
             .method = task_.method,
             .seed = task_.seed,
             .surfels = target_.surfels.size(),
+            .contacts = contacts_,
             .triangles = target_.triangles.size(),
             .area = size.area,
             .finest_voxel = surroundings_.fit() ? finest_voxel(size, target_.triangles.size(), target_.voxelizing.grid)
@@ -319,6 +327,7 @@ class TargetBake {
     Surroundings& surroundings_;
     const BakeProgress& progress_;
     TargetOccluders occluders_;
+    std::size_t contacts_ = 0; // surfels that touch other faces
     std::optional<Pilot> pilot_;
     std::vector<std::uint32_t> sample_; // see rmse_on_sample()
     TargetResult result_;

@@ -4,6 +4,7 @@
 #include "alcove/occlusion/detail/last_layer_fit.h"
 #include "alcove/occlusion/detail/parameter.h"
 #include "alcove/occlusion/methods/calibrated_networks.h"
+#include "alcove/occlusion/methods/exact.h"
 #include "alcove/occlusion/methods/traced.h"
 
 namespace alcove {
@@ -14,14 +15,16 @@ namespace alcove {
 ///
 /// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. What
 /// they are, and the error on meshes it was not trained on, is in docs/calibrated.md. All x are 0 over a plane, where ao
-/// is 1 by construction, as far as the bands of the field reach, and independent of scale. Surfels that touch other
-/// faces get 32 rays, as in Traced. Source: probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost:
+/// is 1 by construction, as far as the bands of the field reach, and independent of scale. Probes do not resolve
+/// contacts: surfels that touch other faces get rays on the mesh, as in Exact, or in the field, as in Traced. Source: probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost:
 /// 13, 38 or 63 map() calls per surfel, and 0.05, 0.1 or 0.2 µs.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
     int samples = 38;    ///< maximum number of probes, >= 13: there are networks for 13, 38 and 63
     std::optional<RingNetwork::LastLayer> last{}; ///< of the network, see fit(); empty: as trained
+    std::optional<RaySurface> mesh{};             ///< where surfels in contact trace rays; empty: in the field
 
+    static constexpr int rays_at_contacts = 64;
     static constexpr std::string_view name = "calibrated";
     static constexpr std::string_view summary =
         "probes along and around the normal, combined by a small network trained on exact rays";
@@ -30,7 +33,7 @@ struct Calibrated {
     static constexpr std::string_view source = "trained on exact rays: see docs/calibrated.md";
     static constexpr std::string_view cost = "38 map() calls per point; 13 if samples is below 38, 63 if it is 63";
     static constexpr std::string_view good =
-        "closest to exact rays for so few probes; no noise; almost exact on planes";
+        "closest to exact rays for so few probes; no noise except at contacts; almost exact on planes";
     static constexpr std::string_view bad =
         "no bound on its error: reliable only on shapes like those it was trained on; weak in wide cavities";
 
@@ -54,19 +57,23 @@ struct Calibrated {
   private:
     template <Field F>
     void trace_contacts(const F& field, const SurfelBatch& surfels, float* ao) const {
+        const float lift = mesh ? start_height(field, radius) : 0.0f; // of the batch; rays on the mesh start without it
         SurfelBatch touching;
         std::array<std::uint8_t, SurfelBatch::capacity> owner;
         for (std::size_t i = 0; i < surfels.count; ++i)
             if (surfels.touches(i)) {
                 owner[touching.count] = static_cast<std::uint8_t>(i);
-                touching.push_back({surfels.position(i), surfels.normal(i), surfels.away(i)});
+                touching.push_back({surfels.position(i), surfels.normal(i), surfels.away(i)}, -lift);
             }
         if (touching.count == 0)
             return;
         SurfelBatch::Values values;
         Outputs out;
         out[Channel::ao] = values.data();
-        Traced{.radius = radius, .rays = 32}(field, touching, out);
+        if (mesh)
+            Exact{.radius = radius, .rays = rays_at_contacts}(*mesh, touching, out);
+        else
+            Traced{.radius = radius, .rays = rays_at_contacts}(field, touching, out);
         for (std::size_t k = 0; k < touching.count; ++k)
             ao[owner[k]] = values[k];
     }
