@@ -127,7 +127,9 @@ class BakeJob {
         warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
         warnings_.insert(warnings_.begin(), mesh_.warnings.begin(), mesh_.warnings.end());
         warnings_.insert(warnings_.begin(), grid_.warnings.begin(), grid_.warnings.end());
-        print_warnings(warnings_, verb_.common);
+        for (const std::string& warning : warnings_)
+            print_warnings({verb_.inputs.size() > 1 ? fmt::format("{}: {}", file_.input, warning) : warning},
+                           verb_.common);
         print(baked);
     }
 
@@ -193,7 +195,7 @@ class BakeJob {
             say(fmt::format("{}: {} of {} vertices by {}, radius {:.4g}, {}{}{}", file_.output,
                             names_of(baked.attributes), grouped(mesh_.vertex_count()), baked.method, baked.radius,
                             grid.text(), rmse_text(baked),
-                            baked.reason.empty() ? "" : fmt::format(" (without the field: {})", baked.reason)));
+                            baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason)));
     }
 
     const BakeVerb& verb_;
@@ -229,7 +231,7 @@ void run(BakeVerb& verb) {
 
 void add_files(CLI::App& app, BakeVerb& verb) {
     app.add_option("input", verb.inputs,
-                   "Meshes to bake (ply, obj, off, stl), or level sets (vdb), whose zero surface is meshed first")
+                   "Meshes to bake (ply, obj, off, stl), or level sets (vdb), whose zero isosurface is meshed first")
         ->required();
     app.add_option("-o,--output", verb.output, "Mesh to write (ply, obj), or a folder that gets one mesh per input")
         ->required();
@@ -241,9 +243,9 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
     add_radius_option(app, bake.radius, "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), inf");
     CLI::Option* quality = add_choice<std::optional<Quality>>(
         app, "--quality", verb.quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
-        "Maximum RMSE against exact rays: draft 0.05, good 0.02, fine 0.005; the planner picks the cheapest method");
+        "Maximum RMSE against exact rays: draft 0.05, good 0.02, fine 0.005; the planner picks the fastest method");
     quality->type_name("NAME")->default_str("good");
-    app.add_option("--error", bake.error, "Any other RMSE to meet, at least 0.001 and below 1")
+    app.add_option("--error", bake.error, "Maximum RMSE as a number, at least 0.001 and below 1")
         ->excludes(quality)
         ->type_name("E");
     CLI::Option* via =
@@ -279,7 +281,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
          {"angle", NormalSource::angle},
          {"area", NormalSource::area}},
         "file: normals of the file; angle, area: means of face normals, weighted by the angles at the vertex or by the "
-        "areas; auto: file if there are any, else angle")
+        "areas; auto: the file's normals if it has any, else angle")
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);
@@ -310,12 +312,14 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
 }
 
 void add_occluders(CLI::App& app, BakeVerb& verb) {
-    app.add_flag("--self", verb.bake.self, "Each connected part is occluded only by itself, --occluder and --ground");
+    app.add_flag("--self", verb.bake.self, "Each connected part is occluded only by itself, by --occluder meshes and by the --ground plane");
     app.add_option("--occluder", verb.occluders,
                    "Mesh that also occludes, in the same coordinates; repeat the option for more")
         ->option_text("MESH");
-    app.add_flag("--ground", verb.bake.ground, "The plane through the lowest vertex also occludes");
-    add_triple(app, "--up", verb.up, Triple::direction, "Up direction for --ground")->default_str("0,1,0");
+    app.add_flag("--ground", verb.bake.ground, "Add an occluding plane through the lowest vertex");
+    add_triple(app, "--up", verb.up, Triple::direction, "Up direction for --ground")
+        ->needs("--ground")
+        ->default_str("0,1,0");
 }
 
 void add_colors(CLI::App& app, BakeVerb& verb) {

@@ -13,7 +13,7 @@ namespace alcove::cli {
 namespace {
 
 std::string guess(std::string_view typed, const std::vector<std::string>& names) {
-    const std::string meant = nearest(typed, names);
+    const std::string meant = nearest_name(typed, names);
     return meant.empty() ? meant : fmt::format(" (did you mean {}?)", meant);
 }
 
@@ -86,22 +86,13 @@ std::string replaced(std::string text, const std::string& part, const std::strin
 
 }
 
-std::string nearest(std::string_view typed, const std::vector<std::string>& names) {
-    std::string best;
-    std::size_t fewest = typed.size() / 3 + 1;
-    for (const std::string& name : names)
-        if (const std::size_t count = edit_distance(typed, name); count <= fewest && (best.empty() || count < fewest)) {
-            fewest = count;
-            best = name;
-        }
-    return best;
-}
-
 std::string explain(const CLI::App& program, const CLI::ParseError& error, const std::vector<std::string>& words) {
     const std::vector<CLI::App*> parsed = program.get_subcommands();
     if (parsed.empty())
         return explain_verb(program, words) + "; see alcove --help";
     const CLI::App& verb = *parsed.front();
+    if (words.front() == "help")
+        return fmt::format("there is no verb 'help': use alcove {} --help", verb.get_name());
     const std::string help = fmt::format("see alcove {} --help", verb.get_name());
 
     const std::vector<std::string> extra = program.remaining(true);

@@ -68,6 +68,8 @@ ImageOutput::ImageOutput(const ImageRequest& request) : file_(request.file) {
         passes_ = png_ ? PassSet(Pass::beauty) : standard_passes;
     if (png_ && passes_ != first(passes_))
         throw UsageError("a .png shows one pass: give --pass once, or write an .exr, which can store several");
+    if (png_ && request.precision == Precision::single)
+        throw UsageError("--precision float is for .exr: a .png has no floats");
     precision_ = request.precision;
     const AtomicFile probe(file_);
 }

@@ -267,8 +267,11 @@ void run(const MeasureOptions& options) {
             job.asked["weld"] = options.weld->unit == Length::Unit::diagonal
                                     ? fmt::format("{}%", 100.0 * options.weld->value)
                                     : fmt::format("{}", options.weld->value);
-    if (!options.report.empty())
+    if (!options.report.empty()) {
+        if (extension(options.report) != ".html" && extension(options.report) != ".htm")
+            throw UsageError(options.report + ": reports are written as .html: use this extension");
         const AtomicFile probe(options.report);
+    }
     MeasuredResults results(options.json);
     const auto [failures, bad_input] = measure_missing(jobs, results, options);
 
@@ -298,7 +301,7 @@ void add_measure(CLI::App& program) {
     auto options = std::make_shared<MeasureOptions>();
     verb->add_option(
             "input", options->inputs,
-            "Meshes to measure on (ply, obj, off, stl), or level sets (vdb), whose zero surface is meshed first")
+            "Meshes to measure on (ply, obj, off, stl), or level sets (vdb), whose zero isosurface is meshed first")
         ->required();
     verb->add_option("--radius", options->radius,
                      "Maximum distances of occluders, separated by commas: 0.2 (scene units), 10%, inf")
@@ -318,7 +321,7 @@ void add_measure(CLI::App& program) {
     add_run_options(*verb, options->common);
     verb->footer(
         "The reference is 1,024 exact rays per vertex, at up to 20,000 vertices; each method bakes all vertices.\n"
-        "Seconds are CPU time of the process for one pass. A grid is built once per radius and voxel, and its\n"
+        "Seconds are CPU time of the process for one pass. A grid is built once per radius and voxel size, and its\n"
         "time is added to each method that uses it.\n\n"
         "Examples:\n"
         "  alcove measure scan.ply --report scan.html\n"

@@ -68,9 +68,9 @@ void add_limits(CLI::App& verb) {
             ->type_name("SIZE");
     };
     add("--max-memory", limit_memory,
-        "Memory for level sets and images: 2GB, 500MB, 1.5GiB. Default: half of that of the machine");
+        "Memory for level sets and images: 2GB, 500MB, 1.5GiB. Default: half of the machine's memory");
     add("--max-read", limit_reading,
-        "Largest file to read; of a pipe, at most this much is read. Default: half of --max-memory, at most 4GB");
+        "Largest file to read; a pipe is read up to this size. Default: half of --max-memory, at most 4GB");
 }
 
 std::pair<std::string, double> parse_setting(const std::string& setting) {
@@ -135,7 +135,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
         }))
         ->option_text("SECONDS");
     add_limits(verb);
-    verb.add_flag("--quiet", options.quiet, "No progress, no warnings");
+    verb.add_flag("--quiet", options.quiet, "Print nothing but errors, and the result of --json");
     verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
 }
 
@@ -155,7 +155,7 @@ void add_radius_option(CLI::App& verb, Length& radius, const std::string& descri
 void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign) {
     verb.add_option_function<std::string>(
             "--voxel", [&voxel](const std::string& text) { voxel = parse_voxel(text); },
-            "Edge of the finest voxel: 0.2, 0.5%, or auto (1/256 of the diagonal, finer for small radii)")
+            "Edge of the finest voxel: 0.2, 0.5%, or auto (what the radius and the error need)")
         ->check(parsable(parse_voxel))
         ->type_name("LEN")
         ->default_str("auto");

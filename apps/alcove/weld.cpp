@@ -25,7 +25,7 @@ void add_weld_option(CLI::App& verb, std::optional<Length>& weld) {
     verb.add_option_function<std::string>(
             "--weld", [&weld](const std::string& text) { weld = parse_weld(text); },
             "Join vertices within this distance, 0.2 (scene units) or 0.001% (of the diagonal), before anything else: "
-            "closes what an exporter has rounded apart, and smooths seams")
+            "closes gaps caused by an exporter's rounding, and smooths shading across seams")
         ->check(parsable(parse_weld))
         ->type_name("LEN");
 }

@@ -214,7 +214,7 @@ TEST(Bake, AFarVertexThatNoFaceUsesChangesNothing) {
     EXPECT_EQ(std::vector(far.ao().begin() + 1, far.ao().end()), baked.ao());
     EXPECT_EQ(far.ao().front(), 1.0f);
     EXPECT_EQ(far.radius, baked.radius);
-    EXPECT_TRUE(warns_of(far, "1 of 517 vertices have no normal"));
+    EXPECT_TRUE(warns_of(far, "1 of 517 vertices has no normal (no face uses it, or its face normals cancel out)"));
 }
 
 TEST(Bake, WarnsOfAFewFacesThatDetermineTheBoundingBox) {
@@ -225,7 +225,7 @@ TEST(Bake, WarnsOfAFewFacesThatDetermineTheBoundingBox) {
     EXPECT_FALSE(warns_of(bake(sphere_mesh(3)), "bounding box"));
     EXPECT_FALSE(warns_of(bake(mesh, {.radius = "0.3"}), "bounding box"));
     const Baked baked = bake(mesh);
-    EXPECT_TRUE(warns_of(baked, "1 of 513 faces, such as face 513, make the diagonal of the bounding box"))
+    EXPECT_TRUE(warns_of(baked, "1 of 513 faces, face 513, makes the diagonal of the bounding box"))
         << baked.warnings.size();
     EXPECT_TRUE(warns_of(baked, "--radius 0.35"));
 }
@@ -291,7 +291,7 @@ TEST(Bake, ChecksItsOptions) {
 TEST(Bake, WarnsOfVerticesThatShareAPlaceOnASmoothSurface) {
     const auto warning_of = [](const Mesh& mesh, const BakeOptions& options) {
         for (const std::string& warning : bake(mesh, options).warnings)
-            if (warning.find("share places") != std::string::npos)
+            if (warning.find("share positions") != std::string::npos)
                 return warning;
         return std::string();
     };

@@ -52,6 +52,14 @@ TEST_F(BakeBatch, AFailureDoesNotStopTheOthers) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "work/baked/cube.ply"));
 }
 
+TEST_F(BakeBatch, WarningsNameTheirInput) {
+    write_sphere("a.ply");
+    write("lost.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n");
+    const Outcome outcome = run({"bake", "a.ply", "lost.obj", "-o", "baked/"});
+    ASSERT_EQ(outcome.code, done) << outcome.err;
+    EXPECT_NE(outcome.err.find("warning: lost.obj: 1 of 4 vertices"), std::string::npos) << outcome.err;
+}
+
 TEST_F(BakeBatch, EqualNamesGetTheirFoldersInFront) {
     write_sphere("left/part.ply");
     write_sphere("right/part.ply", 2);

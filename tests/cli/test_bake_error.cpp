@@ -108,6 +108,10 @@ TEST_F(BakeError, GoesWithWhatLeavesSomethingToChoose) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         expect_refusal(arguments, usage, {});
     }
+    for (const char* error : {"--error=0.02", "--quality=draft"})
+        for (const char* method : {"guided", "traced"})
+            expect_refusal({"bake", "cube.off", "-o", "a.ply", "--method", method, "--rays", "4", error}, usage,
+                           {"--rays cannot be combined with --error or --quality"});
     for (const char* error : {"0", "-1", "2", "nan"})
         expect_refusal({"bake", "cube.off", "-o", "a.ply", "--error", error}, usage, {"0.001"});
 }

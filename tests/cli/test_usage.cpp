@@ -70,6 +70,9 @@ TEST_F(Program, NamesTheNearestOption) {
     expect_refusal({"bake", "cube.off", "-o", "b.ply", "--raduis=0.1"}, usage, {"did you mean --radius?"});
     expect_refusal({"bake", "cube.off", "--outptu", "b.ply"}, usage, {"did you mean --output?"});
     expect_refusal({"info", "cube.off", "--jsno"}, usage, {"did you mean --json?"});
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--method", "guide"}, usage, {"did you mean guided?"});
+    expect_refusal({"bake", "cube.off", "-o", "b.ply", "--method", "thickness"}, usage, {"--attributes thickness"});
+    expect_refusal({"help", "bake"}, usage, {"alcove bake --help"});
     const Outcome far = run({"bake", "cube.off", "-o", "b.ply", "--zzzzzzzz"});
     EXPECT_EQ(far.code, usage);
     EXPECT_EQ(far.err.find("did you mean"), std::string::npos);
@@ -127,6 +130,9 @@ TEST_F(Program, RefusesBadNumbersAndWordsBeforeItReadsAnything) {
     expect_refusal({"render", "none.ply", "-o", "b.png", "--pixel-samples", "0"}, usage,
                    {"--pixel-samples takes a number from 1 to 1024, not 0"});
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--rays", "9"}, usage, {"--rays needs --method"});
+    expect_refusal({"bake", "none.ply", "-o", "b.ply", "--up", "0,0,1"}, usage, {"--up needs --ground"});
+    expect_refusal({"measure", "none.ply", "--report", "b.pdf"}, usage, {"b.pdf", ".html"});
+    expect_refusal({"render", "none.ply", "-o", "b.png", "--precision", "float"}, usage, {"--precision", ".exr"});
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--error", "0.1", "--quality", "fine"}, usage,
                    {"--error", "--quality", "cannot be combined"});
     expect_refusal({"bake", "none.ply", "-o", "b.ply", "--method", "classic", "--samples", "-3"}, usage,

@@ -233,8 +233,8 @@ bool has_colors(const Mesh& mesh) {
            has_property(mesh, "blue") || has_property(mesh, "alpha");
 }
 
-/// Whether to add ao as colours and `quality`: not if the mesh has either of its own. An .obj stores ao only as colours,
-/// so those of an earlier bake are replaced.
+/// Whether to add ao as colours and `quality`: not if the mesh has either of its own. An .obj stores ao only as
+/// colours, so those of an earlier bake are replaced.
 bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
         return baked.attributes.has(Channel::ao) && use == ColorUse::ao;
@@ -243,15 +243,19 @@ bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     return !has_colors(mesh) && (!has_property(mesh, "quality") || names_value(earlier_bake(mesh), "quality"));
 }
 
-/// Warns if the colours that stay are those of an earlier bake with other values.
-void warn_of_earlier_colors(Mesh& mesh, const std::vector<float>& ao) {
+/// Warns if viewers will show other colours than the ao.
+void warn_of_kept_colors(Mesh& mesh, const std::vector<float>& ao, ColorUse use) {
     const std::vector<Color>& colors = mesh.vertex_colors;
-    if (!has_baked_colors(mesh) || ao.empty() || colors == grey_colors(ao) ||
-        colors == grey_colors(ao, ColorEncoding::raw))
+    if (ao.empty() || colors == grey_colors(ao) || colors == grey_colors(ao, ColorEncoding::raw))
         return;
-    mesh.warnings.emplace_back(
-        "the vertex colours are kept but are not this ao: an earlier bake may have made them; add --color "
-        "ao to replace them");
+    if (has_baked_colors(mesh))
+        mesh.warnings.emplace_back(
+            "the vertex colours are kept but are not this ao: an earlier bake may have made them; "
+            "add --color ao to replace them");
+    else if (use == ColorUse::automatic)
+        mesh.warnings.push_back(fmt::format("the {} of the input is kept, so viewers may not show ao, which is in the "
+                                            "property 'ao' only: add --color ao to show it instead",
+                                            has_colors(mesh) ? "vertex colour" : "'quality'"));
 }
 
 }
@@ -306,7 +310,7 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
     if (colored)
         mesh.added_colors = grey_colors(baked.ao(), options.encoding);
     else
-        warn_of_earlier_colors(mesh, baked.ao());
+        warn_of_kept_colors(mesh, baked.ao(), options.color);
     if (rated)
         mesh.set_attribute({"quality", 1, baked.ao()});
     for (const ChannelInfo& channel : channels)

@@ -138,8 +138,8 @@ void check(const BakeOptions& options);
 /// pilot.
 /// \throw InputError as check(), or if the mesh cannot be baked: no face has an area, or NormalSource::file without
 /// normals, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
-/// exceed half of the memory, MemoryError if the system has too little. TimeLimitError, see BakeOptions::time_limit. Any
-/// exception of BakeOptions::progress.
+/// exceed half of the memory, MemoryError if the system has too little. TimeLimitError, see BakeOptions::time_limit.
+/// Any exception of BakeOptions::progress.
 Baked bake(const Mesh& mesh, const BakeOptions& options = {});
 
 inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
@@ -148,8 +148,8 @@ inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
 struct SurfacePoint {
     Vec3d position{0.0}; ///< scene units
     Vec3 normal{0.0f};   ///< any length; zero: the normal of the face
-    /// Index of the face that it lies on. Without one, the faces that it touches and whose normals are within 60° of its
-    /// own count as its own.
+    /// Index of the face that it lies on. Without one, the faces that it touches and whose normals are within 60° of
+    /// its own count as its own.
     std::uint32_t face = no_face;
 };
 
@@ -181,7 +181,7 @@ struct AddOptions {
 
 /// Adds the values that were baked at the vertices of `mesh` as attributes named like the channels, ao also as colours
 /// and `quality` (see ColorUse), and a comment with the method and its settings. Adds a warning to `mesh` if it keeps
-/// the colours of an earlier bake. \return whether colours were added.
+/// colours of its own. \return whether colours were added.
 /// \throw InputError if the numbers of values and vertices do not match. Cost: linear.
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options = {});
 

@@ -6,7 +6,7 @@
 ///    by grids, fields, surfels and radii. A radius of 10 % of D is 0.1, so a bake does not depend on the size and
 ///    position of the scene. A Frame converts between the two.
 ///
-/// Signs: a distance is positive outside (in the air), negative inside (in the solid), zero on the surface.
+/// Signs: a distance is positive outside, negative inside (in the solid), zero on the surface.
 /// Occlusion values are visibilities in [0, 1]: 1 is unoccluded, 0 fully occluded.
 #pragma once
 

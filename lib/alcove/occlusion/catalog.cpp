@@ -1,5 +1,6 @@
 #include "alcove/occlusion/catalog.h"
 
+#include "alcove/base/detail/edit_distance.h"
 #include "alcove/base/types.h"
 #include "alcove/occlusion/methods/calibrated.h"
 #include "alcove/occlusion/methods/guided.h"
@@ -143,14 +144,19 @@ std::span<const Method> catalog() {
 }
 
 const Method& find_method(std::string_view name) {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const Method& method : methods)
         if (method.gives.has(Channel::ao)) {
             if (method.name == name)
                 return method;
-            names.push_back(method.name);
+            names.emplace_back(method.name);
+        } else if (method.name == name) {
+            throw InputError(fmt::format("{0} is an attribute, not a method for ao: use --attributes {0}", name));
         }
-    throw InputError(fmt::format("there is no method '{}'; known methods: {}", name, fmt::join(names, ", ")));
+    const std::string meant = nearest_name(name, names);
+    throw InputError(fmt::format("there is no method '{}'{}; known methods: {}", name,
+                                 meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant),
+                                 fmt::join(names, ", ")));
 }
 
 std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted) {

@@ -11,8 +11,8 @@
 namespace alcove {
 namespace {
 
-/// The vertices at whose place another one has a slightly different normal: each has the normal of its own faces, although
-/// the surface is smooth there.
+/// The number of vertices at whose position another one has a slightly different normal: each has the normal of its own
+/// faces, although the surface is smooth there.
 std::size_t faceted_vertices(const Gaps& gaps, std::span<const Surfel> surfels) {
     constexpr float flat = 0.99985f, sharp = 0.766f; // cos 1° and cos 40°
     constexpr std::ptrdiff_t most_compared = 64;     // the work is quadratic in the vertices of a place
@@ -46,9 +46,10 @@ std::vector<std::string> gap_warnings(const Mesh& mesh, std::span<const Triangle
     if (gaps.closable > 0)
         warnings.push_back(gaps.advice());
     if (const std::size_t faceted = own_normals ? 0 : faceted_vertices(gaps, surfels); faceted > 0)
-        warnings.push_back(fmt::format("{} share places with others, so a smooth surface is shaded per face there: add "
-                                       "--weld 0.0001% to join them, or export normals",
-                                       counted(faceted, "vertex", "vertices")));
+        warnings.push_back(fmt::format(
+            "{}, so a smooth surface is shaded per face there: add --weld 0.0001% to join "
+            "them, or export normals",
+            counted(faceted, "vertex shares its position with others", "vertices share positions with others")));
     return warnings;
 }
 

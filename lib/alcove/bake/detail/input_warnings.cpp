@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// Normals of the file that point against their faces make everything dark.
+/// Normals of the file that point to the back of their faces make everything dark.
 void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>& warnings) {
     constexpr std::size_t most_faces = 4096;
     const std::size_t stride = std::max<std::size_t>(target.triangles.size() / most_faces, 1);
@@ -36,9 +36,10 @@ void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view w
                              std::vector<std::string>& warnings) {
     const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
     if (missing > 0)
-        warnings.push_back(fmt::format("{} of {} {} have no normal (no face uses them, or their faces cancel) and got "
-                                       "ao = 1",
-                                       grouped(static_cast<std::size_t>(missing)), grouped(surfels.size()), what));
+        warnings.push_back(fmt::format(
+            "{} of {} {} {} and got ao = 1", grouped(static_cast<std::size_t>(missing)), grouped(surfels.size()), what,
+            missing == 1 ? "has no normal (no face uses it, or its face normals cancel out)"
+                         : "have no normal (no face uses them, or their face normals cancel out)"));
 }
 
 void warn_of_offset(const BakeTarget& target, std::vector<std::string>& warnings) {
@@ -57,8 +58,9 @@ void warn_of_outliers(const BakeTarget& target, const Length& radius, std::vecto
         return;
     if (const std::optional<OutlierFaces> outliers = find_outlier_faces(target.mesh)) {
         warnings.push_back(fmt::format(
-            "{}, so the radius is {:.3g}: remove them, or give the radius in scene units, such as --radius {:.2g}",
-            outliers->text(target.mesh), target.radius * target.frame.diagonal, 0.1 * outliers->rest.diagonal()));
+            "{}, so the radius is {:.3g}: remove {}, or give the radius in scene units, such as --radius {:.2g}",
+            outliers->text(target.mesh), target.radius * target.frame.diagonal, outliers->count == 1 ? "it" : "them",
+            0.1 * outliers->rest.diagonal()));
     }
 }
 

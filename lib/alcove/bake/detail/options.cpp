@@ -35,6 +35,13 @@ void check(const BakeOptions& options) {
             fmt::format("--error takes an RMSE of at least 0.001 and below 1, not {:g}", options.error.value_or(0.0)));
     require(options.parameters.empty() || !options.method.empty(),
             "--rays, --samples and --set need a --method: without one, the planner chooses them");
+    require(is_fixed(options) || std::none_of(options.parameters.begin(), options.parameters.end(),
+                                              [&](const auto& parameter) {
+                                                  return parameter.first ==
+                                                         parameter_of(named_method(options).samples_are);
+                                              }),
+            fmt::format("--{} cannot be combined with --error or --quality, which determine it",
+                        parameter_of(named_method(options).samples_are)));
     require(options.pilot || is_fixed(options),
             "--no-pilot needs a --method without --error: the planner needs the pilot");
     require(options.up != Vec3d(0.0), "--up takes a direction, not 0,0,0: use 0,1,0 or 0,0,1");

@@ -12,16 +12,20 @@ namespace alcove {
 namespace {
 
 constexpr std::uint32_t first_seed = 0x9d1f, second_seed = 0x51ab;
-constexpr std::size_t neighbours = 1024; // surfels along the curve whose differences count
+constexpr std::size_t neighbours = 1024; // surfels along the Morton curve whose differences count
 
-/// At least `rays` rays per surfel, at most four times the default. The total number of rays is constant.
+/// About `rays` rays per surfel. Up to four times the default, the total number of rays is constant. Beyond, it grows
+/// where half of `rays` would not be reached: the noise would hide the error.
 PilotOptions pilot_of(double rays) {
-    constexpr int max_share = 4;
+    constexpr int max_share = 4, max_rays = 4096;
     constexpr PilotOptions standard{};
     int share = 1;
     while (share < max_share && share * standard.rays < rays)
         share *= 2;
-    return {standard.surfels / static_cast<std::size_t>(share), share * standard.rays};
+    PilotOptions options{standard.surfels / static_cast<std::size_t>(share), share * standard.rays};
+    while (options.rays < max_rays && 2 * options.rays < rays)
+        options.rays *= 2;
+    return options;
 }
 
 /// The RMSE without the noise of the reference.
@@ -125,6 +129,7 @@ int Pilot::rays_for(double error, std::uint32_t seed) const {
     constexpr int max_attempts = 16;
     // Rare rays that differ between runs leave a rest that no number of rays removes.
     constexpr double clearly_more = 1.5, hardly_less = 0.93;
+    constexpr int many_rays = 2048; // from there on, small steps would hide such a rest
     int rays = 16, enough = most_rays, last_rays = most_rays;
     double last_rmse = 0.0;
     for (int attempt = 0; attempt < max_attempts && rays < enough; ++attempt) {
@@ -132,12 +137,14 @@ int Pilot::rays_for(double error, std::uint32_t seed) const {
         if (rmse <= error)
             enough = rays;
         const bool is_close = rmse <= error && rmse > 0.85 * error;
-        const bool is_futile = rmse > error && rays > clearly_more * last_rays && rmse > hardly_less * last_rmse;
+        const bool is_futile = rmse > error && rays >= clearly_more * last_rays && rmse > hardly_less * last_rmse;
         if (is_close || is_futile)
             break;
         last_rays = rays;
         last_rmse = rmse;
-        const double factor = std::pow(std::max(rmse, 0.1 * error) / (0.96 * error), 1.0 / ray_exponent);
+        double factor = std::pow(std::max(rmse, 0.1 * error) / (0.96 * error), 1.0 / ray_exponent);
+        if (rmse > error && rays >= many_rays)
+            factor = std::max(factor, clearly_more);
         rays = static_cast<int>(std::clamp(std::ceil(rays * factor), 1.0, double(most_rays)));
     }
     return enough < most_rays ? enough : rays;

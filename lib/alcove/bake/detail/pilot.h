@@ -16,8 +16,8 @@ struct PilotOptions {
     int rays = 128;             ///< per surfel, even, >= 2
 };
 
-/// Both distribute the same total number of rays. Large errors vary most between surfels, so they need many surfels;
-/// small errors are below the noise of few rays, so they need many rays per surfel.
+/// Large errors vary most between surfels, so they need many surfels; small errors are below the noise of few rays, so
+/// they need many rays per surfel.
 PilotOptions pilot_for(double error); ///< to measure errors of about that size, > 0
 PilotOptions pilot_beside(int rays);  ///< to measure a bake with that many rays per surfel; 0 if it traces none
 
@@ -39,11 +39,12 @@ class Pilot {
     bool empty() const { return indices_.empty(); } ///< true if no surfel has a normal
     /// A scale to which the errors of guided and calibrated are roughly proportional: the geometric mean of the error
     /// of 16 exact rays and of the RMS ao difference between neighbours divided by √2, among about a thousand surfels
-    /// along the curve.
+    /// along the Morton curve.
     double difficulty() const { return difficulty_; }
     /// The RMSE of the ao of all surfels that the constructor got, in their order.
     double rmse(std::span<const float> ao) const;
-    /// The same for some of the surfels: `of` has the index of each value's surfel. Nothing if none is the pilot's.
+    /// The same for some of the surfels: `of` has the index of each value's surfel. std::nullopt if the pilot sampled
+    /// none of them.
     std::optional<double> rmse(std::span<const float> ao, std::span<const std::uint32_t> of) const;
     /// The RMSE of a method that evaluates each surfel independently; `settings` include the radius. Cost: the method
     /// at the sampled surfels.

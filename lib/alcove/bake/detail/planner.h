@@ -1,4 +1,4 @@
-/// Chooses the cheapest method that meets an error.
+/// Chooses the fastest method that meets an error.
 #pragma once
 
 #include "alcove/bake/bake.h"
@@ -51,16 +51,16 @@ class Planner {
     Planner(const PlanRequest& request, const Pilot& pilot);
 
     /// The cheapest untried plan that is expected to meet the error, or a trial before it. A trial is a plan that may
-    /// miss the error, but is so cheap that trying it saves time on average; its method has no measured error yet, or one
-    /// that leads to expect at most a tenth above the wanted one. Where guided would need many rays, the trial is guided
-    /// with a third of them. \throw LimitError if no grid for the named method fits in memory.
+    /// miss the error, but is so cheap that trying it saves time on average; its method has no measured error yet, or
+    /// its measured error suggests at most a tenth above the wanted one. Where guided would need many rays, the trial
+    /// is guided with a third of them. \throw LimitError if no grid for the named method fits in memory.
     Plan next() const;
     /// The same without these trials: the plan that is most likely to end the search.
     Plan expected() const;
     /// Whether no untried plan remains after this one.
     bool is_last(const Plan& plan) const;
     /// Takes the measured error of a plan into account. If it exceeds the wanted error, next() returns another plan.
-    /// `share` is that of the surfels the plan was tried on.
+    /// `share`: fraction of the surfels on which the plan was tried.
     void update(const Plan& tried, double rmse, double share = 1.0);
     /// Removes all plans with this grid, because it does not fit in memory.
     void leave_out(float largest_voxel);
@@ -69,7 +69,7 @@ class Planner {
     struct Candidate {
         Plan plan;
         double grid_seconds, tree_seconds; ///< 0 for a grid or BVH that already exists
-        bool is_bound;                     ///< its expected error is that of exact rays, a bound for guided
+        bool is_bound;                     ///< its expected error is the error of exact rays, a bound for guided
         bool tried = false;
     };
     void add_exact(const PlanRequest& request, int rays);

@@ -13,7 +13,7 @@ inline constexpr std::string_view provenance = "alcove ";
 /// The comment of an earlier bake in the file; empty if there is none.
 std::string_view earlier_bake(const Mesh& mesh);
 
-/// Whether the vertex colours are the ao of an earlier bake: grey, and a PLY has `quality`, which a bake adds with them.
+/// Whether the vertex colours are the ao of an earlier bake: grey, and a PLY has `quality`, which a bake adds too.
 bool has_baked_colors(const Mesh& mesh);
 
 }

@@ -110,6 +110,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
     if (descriptor_ < 0) {
         temporary_.clear();
         forget(slot_);
+        if (errno == ENOENT)
+            throw IoError(target.string() + ": its folder does not exist; create it first");
         fail(target, "cannot be written");
     }
     if (exists)

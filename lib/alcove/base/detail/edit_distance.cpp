@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
 
 namespace alcove {
 
@@ -19,6 +18,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
     }
     return row.back();
+}
+
+std::string nearest_name(std::string_view typed, const std::vector<std::string>& names) {
+    std::string best;
+    std::size_t fewest = typed.size() / 3 + 1;
+    for (const std::string& name : names)
+        if (const std::size_t count = edit_distance(typed, name); count <= fewest && (best.empty() || count < fewest)) {
+            fewest = count;
+            best = name;
+        }
+    return best;
 }
 
 }

@@ -1,13 +1,18 @@
-/// The edit distance between words.
+/// Similar words.
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace alcove {
 
 /// The minimum number of insertions, deletions and replacements of letters that turn one word into the other
 /// (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The name nearest to what was typed, at most a third of its letters and one more away; empty if none is.
+std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
 }

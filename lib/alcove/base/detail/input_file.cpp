@@ -18,7 +18,8 @@ namespace alcove {
 namespace {
 
 [[noreturn]] void fail_to_open(const std::filesystem::path& file) {
-    throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno) + "; check the name");
+    const char* const fix = file == "-" ? "; use /dev/stdin for the standard input" : "; check the name";
+    throw InputError(file.string() + ": cannot be opened: " + std::strerror(errno) + fix);
 }
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file) {

@@ -8,8 +8,8 @@ namespace alcove {
 
 class InputFile {
   public:
-    /// Opens a regular file, or a pipe after waiting for its writer. \throw InputError for anything else, LimitError for a
-    /// file that is too large.
+    /// Opens a regular file, or a pipe after waiting for its writer. \throw InputError for anything else, LimitError
+    /// for a file that is too large.
     explicit InputFile(const std::filesystem::path& file);
 
     /// The size that the system reports: 0 for a pipe, and files may grow.

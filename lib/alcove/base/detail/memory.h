@@ -61,7 +61,7 @@ std::vector<T> huge_vector(std::size_t count, const T& value = {}) {
 }
 
 /// The peak of resident bytes since the program started or forget_peak_resident_bytes(); 0 if the system does not
-/// report it. Unlike that of getrusage(), it excludes the parent process.
+/// report it. Unlike the peak from getrusage(), it excludes the parent process.
 std::size_t peak_resident_bytes();
 
 /// Resets the peak.

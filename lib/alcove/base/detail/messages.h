@@ -7,8 +7,8 @@
 
 namespace alcove {
 
-/// The text with '?' for each control character, and for each byte that is not UTF-8: names in a file must not control a
-/// terminal.
+/// The text with '?' for each control character, and for each byte that is not UTF-8: names in a file must not control
+/// a terminal.
 std::string in_one_line(std::string_view text);
 
 /// The same in quotes, truncated to 40 characters.
