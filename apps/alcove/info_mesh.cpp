@@ -72,12 +72,9 @@ void add_ply(Facts& facts, const PlyDocument& document) {
 
 void add_obj(Facts& facts, const ObjDocument& document) {
     auto other = nlohmann::ordered_json::object();
-    std::vector<std::string> lines;
-    for (const auto& [what, count] : document.other_lines) {
+    for (const auto& [what, count] : document.other_lines)
         other[what] = count;
-        lines.push_back(fmt::format("{} {}", grouped(count), what));
-    }
-    facts.add("other_lines", other, lines);
+    facts.add("other_lines", other, document.other_line_counts());
 }
 
 void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
@@ -115,7 +112,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
                   : fmt::format("{}, none of them closed", grouped(d.components)));
     std::vector<std::string> findings = describe(d);
     if (const std::optional<OutlierFaces> outliers = find_outlier_faces(mesh))
-        findings.push_back(outliers->text(mesh) + ": remove them, or give lengths in scene units");
+        findings.push_back(outliers->text(mesh) + ": remove the outliers, or give lengths in scene units");
     facts.add("findings", findings, findings);
 }
 

@@ -59,7 +59,7 @@ class ReferenceScene : public Scene {
                 result.values.push_back(result.image.ao[i]);
         return result;
     }
-    /// The scene has no mesh to trace; sphere tracing an exact field is as accurate.
+    /// The scene has no mesh to trace; sphere tracing an analytic field is as accurate.
     const Method& reference() const override { return find_method("traced"); }
     int reference_rays() const override { return 256; }
     float radius(const Method& method) const override {

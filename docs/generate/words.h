@@ -8,7 +8,7 @@ namespace alcove::docs {
 
 inline constexpr std::string_view page_head = R"(# The methods
 
-Written by `tools/docs.sh`; `alcove methods` prints the same facts. *ao* is visibility: 1 is open, 0 is buried. p is a
+Written by `tools/docs.sh`; `alcove methods` prints the same facts. *ao* is visibility: 1 is open, 0 is fully occluded. p is a
 point on the surface, n its unit normal, d(x) = `map(x)`. The constants of a formula are those of its reference
 document, at the radius R₀ of that document. At any other radius R, a method computes what it would compute at R₀ on the
 scene scaled by R₀/R, so only the ratio of R to the size of the scene matters.

@@ -163,7 +163,7 @@ TEST_F(GridFiles, FewBytesMayNotTakeMuchMemory) {
          {std::vector<std::string>{"info", "tile.vdb"},
           {"bake", "tile.vdb", "-o", "a.ply", "--method", "classic", "--no-pilot"},
           {"render", "tile.vdb", "-o", "a.png"}})
-        expect_refusal(arguments, bad_input, {"tile.vdb", "active tiles"});
+        expect_refusal(arguments, bad_input, {"tile.vdb", "active tile"});
     write_mesh(sphere_mesh(4), folder_ / "work/sphere.ply");
     ASSERT_EQ(run({"voxelize", "sphere.ply", "-o", "sphere.vdb"}).code, done);
     expect_refusal({"bake", "sphere.vdb", "-o", "a.ply", "--max-memory", "1MB", "--max-read", "1GB"}, bad_input,

@@ -59,7 +59,7 @@ TEST(Solidity, CrossingPartsAreOneSolid) {
     expect_silent_solid(together(cube({0, 0, 0}, 2.0), cube({1.01, 1.01, 1.01}, 2.0)));
     const GridStack stack = grid_of(together(cube({0, 0, 0}, 2.0), inverted(cube({1.01, 1.01, 1.01}, 2.0))));
     ASSERT_EQ(stack.warnings.size(), 1u);
-    EXPECT_NE(stack.warnings[0].find("1 of 2 parts face inward"), std::string::npos) << stack.warnings[0];
+    EXPECT_NE(stack.warnings[0].find("1 of 2 parts faces inward, so its AO"), std::string::npos) << stack.warnings[0];
 }
 
 /// The cube in the middle is buried, but belongs to the whole, as its vertices are those of its neighbours.
@@ -76,7 +76,7 @@ TEST(Solidity, FacesThatTurnTheWrongWayAreTold) {
     std::vector<Face> faces = faces_of(cube());
     std::reverse(faces[2].begin(), faces[2].end());
     expect_sheet_and(with_faces(cube(), faces), "at 4 edges the neighbouring faces have opposite orientations");
-    expect_sheet_and(inverted(cube()), "1 of 1 parts face inward");
+    expect_sheet_and(inverted(cube()), "1 of 1 parts faces inward");
 }
 
 /// No column through a voxel centre hits it, but its edges do not cancel.

@@ -115,9 +115,9 @@ TEST_F(Obj, ToPlyKeepsTheMeshAndTellsTheRest) {
     std::string lost;
     for (const std::string& line : write_mesh(mesh, path("out.ply")))
         lost += line + "\n";
-    EXPECT_EQ(lost, "not stored in PLY: 1 'usemtl' lines\nnot stored in PLY: 1 'mtllib' lines\n"
-                    "not stored in PLY: 1 'o' lines\nnot stored in PLY: 1 'l' lines\n"
-                    "not stored in PLY: 1 comment lines\n");
+    EXPECT_EQ(lost, "not stored in PLY: 1 'usemtl' line\nnot stored in PLY: 1 'mtllib' line\n"
+                    "not stored in PLY: 1 'o' line\nnot stored in PLY: 1 'l' line\n"
+                    "not stored in PLY: 1 comment line\n");
     const Mesh again = read_mesh(path("out.ply"));
     EXPECT_EQ(again.positions, mesh.positions);
     EXPECT_EQ(again.corners, mesh.corners);
@@ -167,7 +167,7 @@ TEST_F(Obj, LinesOfUnknownKeywordsAreKeptAndCounted) {
     const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nzz top\nzz 3\nf 1 2 3\n";
     const Mesh mesh = read("in.obj", text);
     ASSERT_EQ(mesh.warnings.size(), 1u);
-    EXPECT_NE(mesh.warnings[0].find("2 lines do not begin with an OBJ keyword, the first is line 4 with 'zz'"),
+    EXPECT_NE(mesh.warnings[0].find("2 lines do not begin with an OBJ keyword (first: line 4 with 'zz'); kept"),
               std::string::npos);
     write_mesh(mesh, path("out.obj"));
     EXPECT_EQ(bytes_of("out.obj"), text);

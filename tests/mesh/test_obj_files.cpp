@@ -35,21 +35,20 @@ class ObjFiles : public ScratchFiles {
 
 TEST_F(ObjFiles, NamesLeadToTheSameFilesFromTheFolderOfTheOutput) {
     EXPECT_EQ(written("mtllib skin/cube.mtl\n"), "mtllib ../in/skin/cube.mtl\n");
-    expect_told("1 name of another file was changed to work from the folder of the output: 'skin/cube.mtl' is now "
-                "'../in/skin/cube.mtl'");
+    expect_told("1 path was rewritten relative to the output folder: 'skin/cube.mtl' is now '../in/skin/cube.mtl'");
     EXPECT_EQ(written("mtllib cube.mtl # the skin\r\n", "out/deep/a.obj"), "mtllib ../../in/cube.mtl # the skin\r\n");
     EXPECT_EQ(written("mtllib ./skin/cube.mtl\n", "a.obj"), "mtllib in/skin/cube.mtl\n");
     EXPECT_EQ(written("mtllib ../in/cube.mtl\n", "in/skin/a.obj"), "mtllib ../cube.mtl\n");
     EXPECT_EQ(written("maplib cube.mtl\nshadow_obj a.obj\ntrace_obj a.obj\n"),
               "maplib ../in/cube.mtl\nshadow_obj ../in/a.obj\ntrace_obj ../in/a.obj\n");
-    expect_told("3 names of other files were changed");
+    expect_told("3 paths were rewritten");
 }
 
 TEST_F(ObjFiles, NamesMayHaveBlanksQuotesAndBackslashes) {
     EXPECT_EQ(written("mtllib my skin.mtl\n"), "mtllib ../in/my skin.mtl\n");
     EXPECT_EQ(written("mtllib cube.mtl my skin.mtl  other.mtl\n"),
               "mtllib ../in/cube.mtl ../in/my skin.mtl  ../in/other.mtl\n");
-    expect_told("3 names of other files were changed");
+    expect_told("3 paths were rewritten");
     EXPECT_EQ(written("mtllib \"my skin.mtl\"\n"), "mtllib \"../in/my skin.mtl\"\n");
     EXPECT_EQ(written("mtllib skin\\cube.mtl\n"), "mtllib ../in/skin/cube.mtl\n");
     EXPECT_EQ(written("mtllib cube.mtl \\\n other.mtl\n"), "mtllib ../in/cube.mtl \\\n ../in/other.mtl\n");
@@ -73,8 +72,7 @@ TEST_F(ObjFiles, NamesThatNeedNoChangeAreKept) {
 
 TEST_F(ObjFiles, NamesOfMissingFilesAreKeptAndTold) {
     EXPECT_EQ(written("mtllib none.mtl\n"), "mtllib none.mtl\n");
-    expect_told("1 name of another file was kept, but no such file was found from the folder of the input: 'none.mtl' "
-                "in line 1");
+    expect_told("1 path was kept, but no such file was found relative to the input folder: 'none.mtl' in line 1");
     EXPECT_EQ(written("g a\nmtllib cube.mtl none.mtl\n"), "g a\nmtllib ../in/cube.mtl none.mtl\n");
     ASSERT_EQ(told_.size(), 2u);
     EXPECT_NE(told_[1].find("'none.mtl' in line 2"), std::string::npos) << told_[1];
@@ -94,5 +92,5 @@ TEST_F(ObjFiles, TheNumberOfLookUpsIsLimited) {
     for (int i = 0; i < 5000; ++i)
         lines += "mtllib a b c d e f g h i j k l m n o p q r s t\n";
     EXPECT_EQ(written(lines), lines);
-    expect_told("100,000 names of other files were kept");
+    expect_told("100,000 paths were kept");
 }

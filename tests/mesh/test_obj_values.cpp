@@ -46,7 +46,8 @@ TEST_F(ObjValues, NormalsOfOneVertexAreSummedOnceEach) {
     EXPECT_EQ(mesh.normals[1], Vec3(0, 0, 1));
     EXPECT_EQ(mesh.normals[3], Vec3(1, 0, 0));
     ASSERT_EQ(mesh.warnings.size(), 1u);
-    EXPECT_NE(mesh.warnings[0].find("1 vertex has more than one normal, as at hard edges"), std::string::npos);
+    EXPECT_NE(mesh.warnings[0].find("1 vertex has several normals (hard edges) but stores one value"),
+              std::string::npos);
     EXPECT_NE(mesh.warnings[0].find("split the vertices there"), std::string::npos) << mesh.warnings[0];
 }
 
@@ -75,7 +76,7 @@ TEST_F(ObjValues, DamagedTextureCoordinatesAreCountedWithTheirLine) {
         const Mesh mesh = read("in.obj", text);
         expect_square(mesh);
         EXPECT_EQ(mesh.vertex_uvs, (std::vector<Vec2>{{0, 0}, uv, {1, 1}, {0, 1}}));
-        expect_warning(mesh, "1 'vt' line does not hold 1 to 3 finite numbers, the first is line 6");
+        expect_warning(mesh, "1 'vt' line does not hold 1 to 3 finite numbers (first: line 6); ");
         write_mesh(mesh, path("out.obj"));
         EXPECT_EQ(bytes_of("out.obj"), text);
     }
@@ -90,7 +91,7 @@ TEST_F(ObjValues, DamagedNormalsAreCountedWithTheirLine) {
         const Mesh mesh = read("in.obj", square + "vn 0 0 1\n" + line + "\nf 1//1 2//2 3//1 4//1\n");
         expect_square(mesh);
         EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{0, 0, 1}, normal, {0, 0, 1}, {0, 0, 1}}));
-        expect_warning(mesh, "1 'vn' line does not hold 3 finite numbers, the first is line 6");
+        expect_warning(mesh, "1 'vn' line does not hold 3 finite numbers (first: line 6); ");
     }
 }
 

@@ -189,9 +189,10 @@ TEST_F(Stl, PaddingBehindATextIsIgnored) {
 TEST_F(Stl, TextThatIsNoStlIsLeftOutAndQuoted) {
     const std::string sound = "solid a\n" + two + "endsolid a\n";
     for (const auto& [bytes, words] : std::vector<std::pair<std::string, std::string>>{
-             {sound + "</pre>\n</html>\n", "2 lines do not begin with an STL keyword, the first with '</pre>'"},
-             {"<pre>\n" + sound, "the first with '<pre>'"},
-             {"solid a\ncolor 1 0 0\n" + two + "endsolid", "the first with 'color'"}}) {
+             {sound + "</pre>\n</html>\n",
+              "2 lines do not begin with an STL keyword (first: line 17 with '</pre>'); left out"},
+             {"<pre>\n" + sound, "(first: line 1 with '<pre>')"},
+             {"solid a\ncolor 1 0 0\n" + two + "endsolid", "(first: line 2 with 'color')"}}) {
         const Mesh mesh = read("in.stl", bytes);
         EXPECT_EQ(mesh.face_count(), 2u) << words;
         ASSERT_EQ(mesh.warnings.size(), 1u) << words;

@@ -167,8 +167,8 @@ TEST_F(TessellateValues, OfAnObjFileThatAreLostAreNamed) {
     const Mesh mesh = read("in.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl red\n"
                                      "f 1/1 2/2 3/3\n");
     const Mesh result = tessellate(mesh, {.longest = 0.6});
-    EXPECT_TRUE(mentions(result.warnings, "1 'usemtl' lines"));
-    EXPECT_TRUE(mentions(result.warnings, "1 'mtllib' lines"));
+    EXPECT_TRUE(mentions(result.warnings, "1 'usemtl' line"));
+    EXPECT_TRUE(mentions(result.warnings, "1 'mtllib' line"));
     EXPECT_TRUE(write_mesh(result, path("out.obj")).empty());
     const Mesh again = read_mesh(path("out.obj"));
     EXPECT_EQ(again.positions, result.positions);

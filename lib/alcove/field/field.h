@@ -49,7 +49,7 @@ void map_batch(const F& field, const Points& points, float reach, float* distanc
     }
 }
 
-/// The length below which a field is not reliable: the finest voxel of a grid, 0 for exact shapes.
+/// The length below which a field is not reliable: the finest voxel of a grid, 0 for analytic shapes.
 template <Field F>
 float resolution(const F& field) {
     if constexpr (requires {
@@ -72,7 +72,7 @@ float extent(const F& field) {
         return std::numeric_limits<float>::infinity();
 }
 
-/// Whether both sides of the surface are air and only a thin layer behind it is negative (Sign::sheet).
+/// Whether both sides of the surface count as outside and only a thin layer behind it is negative (Sign::sheet).
 template <Field F>
 bool two_sided(const F& field) {
     if constexpr (requires {

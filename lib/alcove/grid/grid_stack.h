@@ -30,13 +30,13 @@ struct LevelSet {
     double voxel = 0.0;      ///< edge of a voxel, unit space
     Vec3d origin{0.0};       ///< centre of the voxel of index (0, 0, 0), unit space; may be far from the surface
     float outer_band = 0.0f; ///< width of the outer band, voxels: values within it are distances
-    float inner_band = 0.0f; ///< width of the inner band, voxels; for a sheet both bands are air
+    float inner_band = 0.0f; ///< width of the inner band, voxels; for a sheet both bands count as outside
     std::size_t active_voxels = 0;
     std::size_t bytes = 0; ///< memory of the grid
 };
 
-/// Points at whole multiples of `voxel` from `origin` along each axis, scene units. Grids of different meshes on the same
-/// lattice can be combined voxel by voxel.
+/// Points at whole multiples of `voxel` from `origin` along each axis, scene units. Grids of different meshes on the
+/// same lattice can be combined voxel by voxel.
 struct Lattice {
     double voxel = 1.0;
     Vec3d origin{0.0};
@@ -57,7 +57,7 @@ struct GridStack {
     std::string creator;               ///< the program that wrote the file, if read from one that names it
     std::vector<std::string> warnings; ///< messages about what was lost in voxelization or reading
 
-    /// Edge of a voxel, scene units; that of a lattice to the bit.
+    /// Edge of a voxel, scene units; bit for bit the voxel of the lattice, if there is one.
     double scene_voxel(std::size_t level = 0) const;
     /// Largest distance that the last level represents, unit space.
     float reach() const { return (levels.back().outer_band - 1.0f) * static_cast<float>(levels.back().voxel); }

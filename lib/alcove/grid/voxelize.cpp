@@ -102,8 +102,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
 
     if (plan.voxel > 0.25f * options.grid.radius)
         stack.warnings.push_back(fmt::format(
-            "the voxel is {} times the radius, which is too coarse to resolve occlusion: use a voxel of {} % of "
-            "the diagonal or less",
+            "the voxel is {} times the radius, which is too coarse to resolve occlusion: use --voxel {}% or less",
             rounded(plan.voxel / options.grid.radius, 2), rounded(12.5 * options.grid.radius, 2)));
     // The shares of the time are rough.
     const auto done = [&](double share) {

@@ -60,22 +60,22 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
 /// The sign that voxelize() chooses by default. Cost: about 10 ns per triangle. \throw LimitError as voxelize().
 Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles);
 
-/// Meshes the zero surface of the finest level in scene units, faces outward: quads, and triangles too if
+/// Meshes the zero isosurface of the finest level in scene units, faces outward: quads, and triangles too if
 /// `adaptivity`, in [0, 1], is above 0 and merges flat regions. Uses OpenVDB's volumeToMesh, which is based on dual
 /// contouring (Ju et al. 2002). The mesh has a hole where the band ends at the surface.
-/// \throw InputError if no distance changes sign, or if the stack is a sheet, whose back is not a zero surface.
+/// \throw InputError if no distance changes sign, or if the stack is a sheet, whose back is not a zero isosurface.
 /// Cost: linear in the active voxels.
 Mesh mesh_zero_surface(const GridStack& stack, float adaptivity = 0.0f);
 
 /// Writes the signed distance of each point, in the unit of the points.
 using Sampler = std::function<void(std::span<const Vec3> points, float* distances)>;
 
-/// Meshes the zero surface of a distance function within the cube of side 1 around the origin, on voxels of edge
+/// Meshes the zero isosurface of a distance function within the cube of side 1 around the origin, on voxels of edge
 /// `voxel`, and ignores what is outside. Samples the centre of each block of 8³ voxels, then each voxel of the
 /// blocks near the surface. \throw InputError if there is no surface.
 Mesh mesh_zero_surface(const Sampler& sample, float voxel);
 
-/// Adds coarser levels, voxelized from the zero surface, until the last reaches `radius` (unit space; infinity is
+/// Adds coarser levels, voxelized from the zero isosurface, until the last reaches `radius` (unit space; infinity is
 /// clamped to the diagonal). With `inside`, replaces a stack for which knows_inside() is false by one of the same
 /// voxel and surface for which it is true. Returns a stack that already satisfies both unchanged. \throw as
 /// mesh_zero_surface(), and LimitError as voxelize().

@@ -14,7 +14,7 @@ namespace alcove {
 
 namespace {
 
-/// Meshes the zero surface of a grid; `place` maps index coordinates to positions, and turns faces over if it mirrors.
+/// Meshes the zero isosurface of a grid. `place` maps index coordinates to positions; if it mirrors, faces are turned.
 template <class Place>
 Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& place, bool mirrors = false) {
     // OpenVDB makes floats, which resolve little far from the origin.

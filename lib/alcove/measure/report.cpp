@@ -253,11 +253,11 @@ class Page {
         std::string text;
         for (const Measurement* m : group)
             if (!m->picture.empty())
-                text += fmt::format(
-                    R"(<figure><img width="320" height="240" alt="errors of {0}" src="{1}"><figcaption>{0}{2}: {3:.4f}</figcaption></figure>)"
-                    "\n",
-                    escaped(m->label()), m->picture, m->voxel > 0.0f ? ", voxel " + percent(m->voxel) : "",
-                    m->error.rmse);
+                text += fmt::format(R"(<figure><img width="320" height="240" alt="errors of {0}" src="{1}">)"
+                                    R"(<figcaption>{0}{2}: {3:.4f}</figcaption></figure>)"
+                                    "\n",
+                                    escaped(m->label()), m->picture,
+                                    m->voxel > 0.0f ? ", voxel " + percent(m->voxel) : "", m->error.rmse);
         if (text.empty())
             return "";
         return fmt::format("<h3>Error images at a radius of {}</h3>\n<p>The absolute difference, from white (0) "

@@ -252,9 +252,11 @@ Diagnosis diagnose(const Mesh& mesh) {
 
 std::vector<std::string> describe(const Diagnosis& d) {
     std::vector<std::string> lines;
-    const auto say = [&](std::size_t count, std::string_view one, std::string_view many, std::string_view meaning) {
+    const auto say = [&](std::size_t count, std::string_view one, std::string_view many, std::string_view meaning,
+                         std::string_view meaning_of_many = {}) {
         if (count > 0)
-            lines.push_back(fmt::format("{}: {}", counted(count, one, many), meaning));
+            lines.push_back(fmt::format("{}: {}", counted(count, one, many),
+                                        count == 1 || meaning_of_many.empty() ? meaning : meaning_of_many));
     };
     if (d.components == 0)
         lines.push_back("no face spans a surface");
@@ -276,7 +278,8 @@ std::vector<std::string> describe(const Diagnosis& d) {
         "neighbouring faces have opposite orientations and vertex normals cancel there; orient the faces "
         "consistently");
     say(d.inverted_components, "part inside out", "parts inside out",
-        "normals point into the solid; flip its faces unless it is the wall of a cavity");
+        "normals point into the solid; flip its faces unless it is the wall of a cavity",
+        "normals point into the solid; flip their faces unless they are walls of cavities");
     say(d.non_manifold_edges, "non-manifold edge", "non-manifold edges",
         "three or more faces meet; harmless for distances, but normals average all of them");
     say(d.non_manifold_vertices, "non-manifold vertex", "non-manifold vertices",
@@ -286,11 +289,13 @@ std::vector<std::string> describe(const Diagnosis& d) {
         "normals, or join the vertices with --weld 0.0001%");
     if (const Gaps gaps{{}, d.closable_edges, d.closing_distance}; d.closable_edges > 0)
         lines.push_back(gaps.advice());
-    say(d.degenerate_faces, "face without area", "faces without area", "they are ignored");
-    say(d.duplicate_faces, "duplicate face", "duplicate faces", "remove them: they may swap inside and outside");
-    say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "they have no normal and get ao = 1");
+    say(d.degenerate_faces, "face without area", "faces without area", "it is ignored", "they are ignored");
+    say(d.duplicate_faces, "duplicate face", "duplicate faces", "remove it: it may swap inside and outside",
+        "remove them: they may swap inside and outside");
+    say(d.unreferenced_vertices, "vertex in no face", "vertices in no face", "it has no normal and gets ao = 1",
+        "they have no normal and get ao = 1");
     say(d.non_finite_vertices, "vertex with non-finite coordinates", "vertices with non-finite coordinates",
-        "ignored, with their faces");
+        "ignored, with its faces", "ignored, with their faces");
     return lines;
 }
 

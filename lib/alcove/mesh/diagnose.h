@@ -1,6 +1,6 @@
 /// Examines a mesh as a surface: whether it is closed, oriented and manifold, and what is broken in it.
 ///
-/// Edges and components are those of the surface, not of the index list: vertices at exactly the same position are
+/// Edges and components belong to the surface, not to the index list: vertices at exactly the same position are
 /// joined first, consecutive repeated corners count once, and faces with fewer than three corners left or with a
 /// vertex that is not finite are ignored. Polygons count as polygons, not as triangles.
 #pragma once

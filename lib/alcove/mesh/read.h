@@ -30,10 +30,10 @@ namespace alcove {
 /// Thread-safe. Cost: linear, about 0.2 µs per triangle for text and 0.1 µs for binary PLY; the file and the mesh
 /// are in memory at the same time.
 ///
-/// \throw InputError with the file, the line or byte and a fix: it cannot be read, unknown format, text in UTF-16, damaged
-///        header, counts larger than the rest of the file, an index out of range, a token that is not a number, an early
-///        end, no faces at all, vertices farther apart than the largest double or closer together than the smallest
-///        normal one.
+/// \throw InputError with the file, the line or byte and a fix: it cannot be read, unknown format, text in UTF-16,
+///        damaged header, counts larger than the rest of the file, an index out of range, a token that is not a number,
+///        an early end, no faces at all, vertices farther apart than the largest double or closer together than the
+///        smallest normal one.
 /// \throw LimitError if it is larger than 4 GB or a quarter of the memory, or has 2^32 vertices or corners.
 /// \throw MemoryError if the system has too little memory for it.
 Mesh read_mesh(const std::filesystem::path& file);

@@ -32,7 +32,7 @@ bool can_write_mesh(const std::filesystem::path& file) {
 
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
     if (!mesh.added_colors.empty() && mesh.added_colors.size() != mesh.vertex_count())
-        throw std::invalid_argument("the number of colours to write is not that of the vertices");
+        throw std::invalid_argument("the number of colours to write differs from the number of vertices");
     if (const Writer write = writer_for(file))
         return write(mesh, file);
     throw InputError(file.string() + ": meshes are written as .ply or .obj; use one of these extensions");

@@ -19,7 +19,7 @@ enum class ColorEncoding {
 std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding = ColorEncoding::srgb);
 
 /// Whether write_mesh() knows the extension of `file`. Call it before a long computation to find out early.
-/// \throw IoError if nothing can be written there, InputError if it is a pipe, a device or a link without a file.
+/// \throw IoError if nothing can be written there, InputError if it is a pipe, a device or a dangling symbolic link.
 bool can_write_mesh(const std::filesystem::path& file);
 
 /// Writes to a temporary file in the same folder and renames it, so that a failure leaves the old file unchanged.
@@ -32,15 +32,16 @@ bool can_write_mesh(const std::filesystem::path& file);
 /// coordinates are float, or double if float would move a vertex by more than 1e-6 of the diagonal.
 ///
 /// OBJ: writes the text of an OBJ input. `added_colors` replace whatever follows x y z on the `v` lines, including a
-/// fourth coordinate. In another folder, relative names of other files (mtllib, maplib, shadow_obj, trace_obj) change to
-/// lead to the same files, if these exist. Nothing else changes, and no comments are added. For other inputs, numbers
-/// are the shortest decimals that read back as the same float if the value is one, otherwise as the same double.
+/// fourth coordinate. In another folder, relative paths of other files (mtllib, maplib, shadow_obj, trace_obj) are
+/// rewritten to point to the same files, if these exist. Nothing else changes, and no comments are added. For other
+/// inputs, numbers are the shortest decimals that read back as the same float if the value is one, otherwise as the
+/// same double.
 ///
 /// The contents of the input are written even if the fields of the Mesh have changed: reset `Mesh::source` after
 /// moving, adding or removing vertices or faces.
 ///
-/// \return what the format could not store, which names changed, and what attributes replaced, except values that a comment
-/// of the file says an earlier run made, one message each; empty if there is nothing to say.
+/// \return what the format could not store, which paths changed, and what attributes replaced, except values that a
+/// comment of the file says an earlier run made, one message each; empty if there is nothing to say.
 /// \throw InputError for another extension, with the ones that work; IoError if the file cannot be written.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 

@@ -13,7 +13,7 @@
 namespace alcove {
 
 enum class Channel : std::uint8_t {
-    ao,          ///< visibility in [0, 1]: 1 open, 0 buried
+    ao,          ///< visibility in [0, 1]: 1 open, 0 fully occluded
     ao_short,    ///< short-range visibility only, in [0, 1]
     ao_long,     ///< visibility over the full range, in [0, 1]
     convexity,   ///< in [0, 1]: 0.5 on flat surfaces, higher on convex edges, lower in concave corners

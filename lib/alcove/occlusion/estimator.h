@@ -124,7 +124,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 
 /// Every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels without
 /// a normal get ChannelInfo::missing; covered ones get 0 in channels of visibility. The values depend neither on the
-/// number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: that of the estimator, per surfel.
+/// number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: the estimator, per
+/// surfel.
 template <class F, Estimator<F> E>
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const F& field,
                        const E& estimator, ChannelSet wanted, const Progress& progress = {}) {

@@ -34,8 +34,8 @@ enum class OcclusionUse {
     sky,        ///< diffuse·shadow + ambient·ao·(½ + ½ u)
 };
 
-/// A key light, the sky, and light reflected by the ground. Directions are scene directions of unit length; colours
-/// are the light on a surface as described.
+/// A key light, the sky, and light reflected by the ground. Directions are scene directions of unit length; each colour
+/// is the light arriving at the surface named beside it.
 struct Lighting {
     Vec3 up{0.0f, 1.0f, 0.0f};         ///< toward the sky
     Vec3 toward_key{0.0f, 1.0f, 0.0f}; ///< toward the key light
@@ -60,7 +60,7 @@ struct Place {
     float ao = 1.0f, shadow = 1.0f; ///< shares of the light that arrive
     float convexity = 0.5f;
     float painted = 1.0f;        ///< multiplies ao, as the material's occlusion does
-    std::optional<Vec3> color{}; ///< diffuse reflectance, in place of that of the material
+    std::optional<Vec3> color{}; ///< diffuse reflectance; replaces the colour of the material
 };
 
 /// The share of the sky that an unoccluded surface sees: ½ + ½ u.
@@ -156,7 +156,7 @@ struct RenderableMesh {
 struct Part {
     AnyField field; ///< unit space
     Material material{};
-    bool colored = false;      ///< the colours of the mesh replace that of the material
+    bool colored = false;      ///< the colours of the mesh replace the colour of the material
     bool painted = false;      ///< the brightness of the colours of the mesh multiplies ao
     bool on_triangles = false; ///< there is no surface but the triangles: nothing where the field rounds its outline up
 };
@@ -220,7 +220,7 @@ struct RenderOptions {
     Settings settings{};
     /// Replaces `method` if set, with the same settings.
     const ImageMethod* image_method = nullptr;
-    /// For a method with a parameter `samples`: its value decreases from that of the settings at the eye.
+    /// For a method with a parameter `samples`: its value at the eye is in `settings`, and decreases with distance.
     std::optional<FewerSamples> fewer{};
     Lighting lighting{};
     SoftShadow shadow{};              ///< of the key light
@@ -236,7 +236,7 @@ Lighting studio_lighting(const Camera& camera, const Vec3d& up);
 int samples_at(float distance, int near_samples, const FewerSamples& fewer);
 
 /// Renders in regions of 262,144 samples, so it needs the memory of the image plus about 100 MB. All values are
-/// finite. Cost: that of the camera rays (detail/camera_rays.h) plus that of the estimator per sample that hits.
+/// finite. Cost: the camera rays (detail/camera_rays.h), plus the estimator once per sample that hits.
 Image render(const Renderable& renderable, const Camera& camera, const RenderOptions& options,
              const Progress& progress = {});
 

@@ -134,8 +134,8 @@ int guided_rays(Quality quality) {
     return quality == Quality::draft ? 1 : quality == Quality::good ? 4 : 16;
 }
 
-/// Default rays per sample of the other methods. With the samples of a pixel, a pixel gets as many rays as a vertex of a
-/// bake.
+/// Default rays per sample of the other methods. With the samples of a pixel, a pixel gets as many rays as a vertex of
+/// a bake.
 constexpr int rays_per_sample = 16;
 
 /// The method of a scene. `make_triangles` is called with whether shapes that are not meshes need triangles as well.
@@ -145,7 +145,7 @@ MethodChoice choose_occlusion(const SceneOcclusion& occlusion, const MakeTriangl
         try {
             make_triangles(true);
             return choose(find_method("guided"), guided_rays(*occlusion.quality));
-        } catch (const InputError&) { // a shape has no zero surface
+        } catch (const InputError&) { // a shape has no zero isosurface
             make_triangles(false);
             return choose(find_method("traced"), rays_per_sample);
         }

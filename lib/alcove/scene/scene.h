@@ -51,7 +51,8 @@ struct MeshShape {
     SignChoice sign = SignChoice::automatic;
     bool own_normals = true; ///< use the normals of the mesh (corner_normals()), not those of the field
     bool painted = false;    ///< the brightness of its vertex colours multiplies the ao
-    /// Whether its own colours (own_colors()) replace that of the material. If unset, they do not, and a warning says so.
+    /// Whether its own colours (own_colors()) replace the colour of the material. If unset, they do not, and a warning
+    /// says so.
     std::optional<bool> own_colors{};
     std::optional<Length> weld{}; ///< joins vertices within it; a percentage is of the mesh's own diagonal
 };
@@ -93,7 +94,7 @@ struct SceneLight {
 };
 
 struct SceneOcclusion {
-    /// Chooses a method and its rays where none is named: guided, or traced for shapes without a zero surface.
+    /// Chooses a method and its rays where none is named: guided, or traced for shapes without a zero isosurface.
     std::optional<Quality> quality = Quality::good;
     const Method* method = nullptr;             ///< null if none is named, or an image method
     const ImageMethod* image_method = nullptr;  ///< set only if `method` is null
@@ -124,8 +125,8 @@ struct Scene {
     int samples = 4; ///< rays per pixel
 };
 
-/// A scene with one file as its only object, on a ground. A .vdb is a level set; any other file is a mesh, which is shown
-/// in its own colours.
+/// A scene with one file as its only object, on a ground. A .vdb is a level set; any other file is a mesh, which is
+/// shown in its own colours.
 Scene scene_of(const std::filesystem::path& file);
 
 /// Paths in the scene are relative to its folder; the files are not opened. \throw InputError, with file, line and fix,
@@ -152,7 +153,7 @@ struct BuiltScene {
 /// LimitError as voxelize().
 BuiltScene build_scene(const Scene& scene, PassSet passes = standard_passes, const Progress& progress = {});
 
-/// The options to render a built scene with. Named methods that trace rays use 16 per sample unless the scene sets them.
+/// The options to render a built scene with. Named methods that trace rays use 16 per sample by default.
 RenderOptions rendering_of(const Scene& scene, const BuiltScene& built, const Camera& camera,
                            PassSet passes = standard_passes);
 

@@ -34,17 +34,17 @@ std::vector<StoredGrid> list_grids(const std::filesystem::path& file);
 /// Which grids of a file to read.
 struct GridSelection {
     std::vector<std::string> names{}; ///< empty: all level sets
-    /// Limit of the memory for the grids, bytes, at most that of the process.
+    /// Limit of the memory for the grids, bytes; at most the memory limit of the process.
     double memory_limit = std::numeric_limits<double>::infinity();
 };
 
-/// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the union of all level sets of floats
-/// and doubles (or else of all such grids without a class that hold distances) as a single level in the frame of its
-/// active voxels. Several stacks, or a stack and other level sets, are united as well, from their finest levels.
+/// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the union of all level sets of
+/// floats and doubles (or else of all such grids without a class that hold distances) as a single level in the frame of
+/// its active voxels. Several stacks, or a stack and other level sets, are united as well, from their finest levels.
 ///
 /// Transforms may be any but frustums. Level sets that share a lattice, and those turned by 90° or mirrored, keep their
 /// values. Others are interpolated on the lattice of the smallest voxels, which rounds sharp edges by a fraction of a
-/// voxel; where voxels are not cubes, the zero surface is voxelized again. See detail/join.h.
+/// voxel; where voxels are not cubes, the zero isosurface is voxelized again. See detail/join.h.
 ///
 /// In a stack with checksums, damage is detected except with a probability of 2⁻³². A file of another program is
 /// refused if its lengths, masks, offsets or counts are inconsistent, zipped values do not unpack, or values are
@@ -59,8 +59,8 @@ struct GridSelection {
 /// a surface without voxels of distances, or the file cannot be opened. LimitError if the grids do not fit.
 GridStack read_grids(const std::filesystem::path& file, const GridSelection& selection = {});
 
-/// The lattice of the voxels of the finest level set. \throw as read_grids(), and InputError if its voxels are not cubes
-/// along the axes.
+/// The lattice of the voxels of the finest level set. \throw as read_grids(), and InputError if its voxels are not
+/// cubes along the axes.
 Lattice read_lattice(const std::filesystem::path& file);
 
 }

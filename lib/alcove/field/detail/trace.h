@@ -18,8 +18,8 @@ struct TraceOptions {
     /// Over-relaxation (Keinert et al. 2014): steps are this factor times the distance, in [1, 2). A step
     /// longer than the sum of the distances at its ends is undone, and the ray continues with a factor of 1.
     float relaxation = 1.0f;
-    /// Set for fields that are two_sided(): the negative side is air too, and the sign may jump where there is no
-    /// surface. A ray hits where the absolute distance is small, or where the sign changes and the step was long
+    /// Set for fields that are two_sided(): the negative side counts as outside too, and the sign may jump where there
+    /// is no surface. A ray hits where the absolute distance is small, or where the sign changes and the step was long
     /// enough to have crossed the surface.
     bool two_sided = false;
 };

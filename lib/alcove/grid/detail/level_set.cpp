@@ -23,7 +23,7 @@ Coord coord(const Index3& index) {
     return {index.x, index.y, index.z};
 }
 
-/// The distances of the brick at `low`, in voxels, that every second voxel of the finer level already has; infinite
+/// Distances (in voxels) in the brick at `low` that can be copied from every second voxel of the finer level; infinite
 /// elsewhere.
 std::array<float, brick_volume> known_distances(const LevelSet* finer, const Index3& low, double value_scale) {
     std::array<float, brick_volume> known;

@@ -1,6 +1,7 @@
 #include "alcove/grid/detail/sign.h"
 
 #include "alcove/base/detail/memory.h"
+#include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/mesh/detail/edge_table.h"
 #include "alcove/mesh/detail/weld.h"
@@ -14,22 +15,24 @@
 namespace alcove {
 namespace {
 
-// A part is buried if less than this share of it bounds the solid.
+// A part counts as hidden inside other parts if less than this share of it bounds the solid.
 constexpr double min_bounding = 0.05;
-// Walls around regions of negative winding numbers would vanish from a solid.
+// Largest share of the surface that may bound regions of negative winding number; in a solid its walls would vanish.
 constexpr double max_in_air = 0.01;
 
 void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
     if (surface.flipped_edges > 0)
         warnings.push_back(
-            fmt::format("at {} edges the neighbouring faces have opposite orientations: vertices there are shaded "
+            fmt::format("at {} the neighbouring faces have opposite orientations: vertices there are shaded "
                         "on the side that their normals happen to point to; orient the faces consistently first",
-                        surface.flipped_edges));
+                        counted(surface.flipped_edges, "edge", "edges")));
     if (surface.inverted_components > 0)
-        warnings.push_back(
-            fmt::format("{} of {} parts face inward and get the occlusion of their inside: correct for the "
-                        "wall of a cavity, otherwise flip their faces first",
-                        surface.inverted_components, surface.components));
+        warnings.push_back(fmt::format(
+            "{} of {} parts {}", grouped(surface.inverted_components), grouped(surface.components),
+            surface.inverted_components == 1 ? "faces inward, so its AO is that of its inside. This is right for the "
+                                               "wall of a cavity; otherwise flip its faces"
+                                             : "face inward, so their AO is that of their inside. This is right for "
+                                               "the walls of cavities; otherwise flip their faces"));
 }
 
 /// The parts that share vertices. Coincident vertices are not joined.
@@ -100,7 +103,7 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
                  std::vector<std::string>& warnings) {
     const double leaking = columns.leaking();
     const bool overlapping = columns.overlapping();
-    // A part consists of parts as indexed, which are found faster: if none of these is buried or inverted, no part is.
+    // A part consists of parts as indexed, which are found faster: if none of these is hidden or inverted, no part is.
     const auto no_part_is_wrong = [&] {
         DisjointSets parts = parts_as_indexed(positions.size(), triangles);
         return !buries_a_part(columns, triangles, parts) && !inverts_a_part(positions, triangles, parts);

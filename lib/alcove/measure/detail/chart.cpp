@@ -94,9 +94,9 @@ class Labels {
 std::string frame_of_axes(const Chart& chart, const Axis& x, const Axis& y) {
     std::string text;
     for (const double tick : x.ticks())
-        text += fmt::format(
-            R"(<path d="M{0:.1f} {1}V{2}" stroke="#ddd"/><text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.5g}</text>)",
-            x.at(tick), top, bottom, bottom + 16, tick);
+        text += fmt::format(R"(<path d="M{0:.1f} {1}V{2}" stroke="#ddd"/>)"
+                            R"(<text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.5g}</text>)",
+                            x.at(tick), top, bottom, bottom + 16, tick);
     for (const double tick : y.ticks())
         text += fmt::format(
             R"(<path d="M{1} {0:.1f}H{2}" stroke="#ddd"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5:.5g}</text>)",
@@ -149,9 +149,10 @@ std::string svg(const Chart& chart) {
     const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
     const Axis x(*x_low, *x_high, left, right), y(*y_low, *y_high, bottom, top);
 
-    std::string text = fmt::format(
-        R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" font-family="sans-serif" font-size="11" fill="#222">)",
-        width, height);
+    std::string text =
+        fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
+                    R"(font-family="sans-serif" font-size="11" fill="#222">)",
+                    width, height);
     text += frame_of_axes(chart, x, y);
     if (!chart.front.empty()) {
         std::string path;

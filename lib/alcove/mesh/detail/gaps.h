@@ -8,17 +8,18 @@
 namespace alcove {
 
 struct Gaps {
-    /// Vertices at exactly the place of an earlier vertex of an open edge, and the first one there.
+    /// Vertices at exactly the position of an earlier vertex of an open edge, and the first one there.
     std::vector<std::array<std::uint32_t, 2>> repeated;
-    std::size_t closable = 0; ///< edges, open even if the repeated are joined, that close if near vertices are joined
-    double distance = 0.0;    ///< how near, scene units
+    /// Edges that stay open when coincident vertices are joined, but close when nearby ones are.
+    std::size_t closable = 0;
+    double distance = 0.0; ///< how near, scene units
 
     /// What to do about the closable edges, in one line; empty if there are none.
     std::string advice() const;
 };
 
-/// Looks for distances up to 1e-4 of the diagonal and a tenth of the usual open edge. `triangles` are those of the mesh.
-/// Cost: about 10 ns per triangle, and 1 µs per vertex of an open edge.
+/// Looks for distances up to 1e-4 of the diagonal and a tenth of the median open-edge length. `triangles` are the
+/// triangles of the mesh. Cost: about 10 ns per triangle, and 1 µs per vertex of an open edge.
 Gaps find_gaps(const Mesh& mesh, std::span<const Triangle> triangles);
 
 }

@@ -95,9 +95,10 @@ std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh) {
 }
 
 std::string OutlierFaces::text(const Mesh& mesh) const {
-    return fmt::format(
-        "{} of {} faces, such as face {}, make the diagonal of the bounding box {:.3g} instead of {:.3g}",
-        grouped(count), grouped(mesh.face_count()), grouped(example + 1), mesh.box().diagonal(), rest.diagonal());
+    const bool single = count == 1;
+    return fmt::format("{} of {} faces, {}face {}, {} the diagonal of the bounding box {:.3g} instead of {:.3g}",
+                       grouped(count), grouped(mesh.face_count()), single ? "" : "such as ", grouped(example + 1),
+                       single ? "makes" : "make", mesh.box().diagonal(), rest.diagonal());
 }
 
 }

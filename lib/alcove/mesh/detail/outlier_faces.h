@@ -19,7 +19,7 @@ struct OutlierFaces {
 };
 
 /// Faces without which the diagonal of the bounding box is less than a tenth: at most one in a hundred, or two. Nothing
-/// if there are none. Cost: 50 ns per face of small meshes; where many faces spread, as usual, that of a sample.
+/// if there are none. Cost: 50 ns per face of small meshes; less where many faces spread, as usual.
 std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh);
 
 }

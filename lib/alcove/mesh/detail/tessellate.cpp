@@ -131,8 +131,8 @@ void replace_source(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
             mesh.warnings.push_back("lost by tessellation: other properties of the file, because its vertices and "
                                     "faces no longer match the mesh");
     } else if (const auto* obj = dynamic_cast<const ObjDocument*>(old.source.get())) {
-        for (const auto& [what, count] : obj->other_lines)
-            mesh.warnings.push_back("lost by tessellation: " + grouped(count) + " " + what);
+        for (const std::string& lines : obj->other_line_counts())
+            mesh.warnings.push_back("lost by tessellation: " + lines);
         if (obj->weights > 0)
             mesh.warnings.push_back("lost by tessellation: the weights of " +
                                     counted(obj->weights, "vertex", "vertices"));

@@ -41,7 +41,8 @@ inline std::uint32_t leaf_near(const TriangleTree& tree, std::uint32_t node, con
 /// Descends from nodes to the leaves that may contain the triangle nearest to one of eight voxels.
 class LeafSearch {
   public:
-    /// Adds the leaves to `octant`, except the node `first`. A leaf that few voxels need is measured at once instead.
+    /// Adds the leaves to `octant`, except the node `first`. Leaves needed by at most `few` voxels are evaluated
+    /// immediately instead.
     void search(const TriangleTree& tree, std::span<const std::uint32_t> nodes, std::uint32_t first,
                 const EightPoints& voxels, Sieve& sieve, OctantSearch& octant, NearestOfEight& best) {
         update_with_likely(tree, nodes, voxels, best);

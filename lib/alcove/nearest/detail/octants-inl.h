@@ -145,8 +145,8 @@ class Octants {
 
   private:
     /// `offset` is w, from the nearest point of a convex set to the centre c. The squared distance of the set from
-    /// a voxel v is convex in v, so it is at least |w|² + 2 (v−c)·w; that of the known point at offset w' is |w'|²
-    /// + 2 (v−c)·w' + |v−c|².
+    /// a voxel v is convex in v, so it is at least |w|² + 2 (v−c)·w; the squared distance of the known point at offset
+    /// w' is |w'|² + 2 (v−c)·w' + |v−c|².
     HWY_INLINE std::uint32_t mask(const Vec3v& offset, int lane) const {
         const V apart = sum_of_abs(minus(load(offset_, lane), offset));
         const V limit = hn::MulAdd(hn::Set(d, 2.0f * half_), apart,

@@ -17,9 +17,9 @@ inline bool uses_vertex(std::size_t vertex, const Triangle& t) {
 }
 
 /// Sets `away` and `covered` of all surfels that have a normal and lie within `offset` of a face that is not their own.
-/// The own faces of a surfel for which `is_own` names none, or without `is_own`, are those that it touches and whose
-/// normals are within 60° of its own. The result depends neither on the number of threads nor on the order of the
-/// surfels. Cost: 0.2 µs per surfel if few touch a face, otherwise up to 0.8 µs.
+/// If `is_own` is absent or names no face of a surfel, its own faces are the touching faces whose normals are within 60
+/// degrees of its own. The result depends neither on the number of threads nor on the order of the surfels. Cost: 0.2
+/// µs per surfel if few touch a face, otherwise up to 0.8 µs.
 void find_contacts(std::span<Surfel> surfels, const RaySurface& surface, float offset, const IsOwnFace& is_own = {});
 
 }

@@ -1,7 +1,7 @@
 /// Many triangles around one vertex, in a tree by direction.
 ///
-/// The boxes of long thin triangles around a vertex overlap so much that a ray through a tree of such boxes costs time in
-/// proportion to their number. Seen from that vertex, however, each triangle is a short arc, and so is a ray.
+/// The boxes of long thin triangles around a vertex overlap so much that a ray through a tree of such boxes costs time
+/// in proportion to their number. Seen from that vertex, however, each triangle is a short arc, and so is a ray.
 #pragma once
 
 #include "alcove/base/types.h"

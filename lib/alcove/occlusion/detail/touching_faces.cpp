@@ -46,7 +46,7 @@ std::size_t corner_at_surfel(const NearFace& face, double offset) {
     return k;
 }
 
-/// Whether all corners of a face are corners of own faces. Polygons that are duplicates may be triangulated differently.
+/// Whether all corners of a face are corners of own faces. Duplicate polygons may be triangulated differently.
 bool is_duplicate(const NearFace& face, std::span<const NearFace> own) {
     return std::all_of(face.corners.begin(), face.corners.end(), [&](const Vec3d& corner) {
         return std::any_of(own.begin(), own.end(), [&](const NearFace& other) {

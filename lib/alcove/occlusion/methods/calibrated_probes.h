@@ -56,18 +56,18 @@ inline constexpr std::size_t probe_count = Probes::normal.size() + Probes::azimu
 template <class Probes>
 using CalibratedInputs = std::array<SurfelBatch::Values, probe_count<Probes>>;
 
-/// What the networks know besides the probes.
+/// Network inputs other than the probes.
 template <Field F>
 RingNetwork::Condition calibrated_condition(const F& field, float radius) {
     constexpr float least = -0.25f, most = 1.25f; // radii of 4 to 256 voxels, as trained
-    constexpr float typical = 0.42f;              // for exact shapes: 10 % of D on the grid of a bake
+    constexpr float typical = 0.42f;              // for analytic shapes: 10 % of D on the grid of a bake
     const float voxel = resolution(field);
     const float size = voxel > 0.0f ? std::log2(radius / voxel / 8.0f) / 4.0f : typical;
     return {std::clamp(size, least, most), two_sided(field) ? 1.0f : 0.0f};
 }
 
-/// The distances that a grid knows on the level for a probe, with the default bands of GridOptions. The networks are
-/// trained on these, and a grid may have wider bands for other attributes.
+/// The range of distances stored on the level that a probe reads, with the default bands of GridOptions. The networks
+/// are trained with this range, and a grid may have wider bands for other attributes.
 struct KnownDistances {
     float least = -std::numeric_limits<float>::infinity(), most = std::numeric_limits<float>::infinity();
 

@@ -5,7 +5,7 @@
 
 namespace alcove {
 
-/// The field with inside and outside swapped; unchanged for sheets, which have air on both sides.
+/// The field with inside and outside swapped; unchanged for sheets, whose sides both count as outside.
 template <Field F>
 struct Inverted {
     const F& field;

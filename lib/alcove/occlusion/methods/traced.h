@@ -12,9 +12,10 @@
 namespace alcove {
 
 /// Finds start heights for rays, see Surfel::origin(): where the field is at least `clearance`, but at most `highest`.
-/// A surfel is on the true surface, not on the interpolated surface of the grid, and the normal at a sharp edge
-/// leaves its faces slowly. A fixed height that is safe for all surfels (a voxel) would be the largest error of
-/// tracing through a grid; these heights are a tenth of that. Cost: 1 to 6 map() calls per surfel.
+/// A surfel is on the true surface, not on the interpolated surface of the grid, and at a sharp edge, moving along the
+/// normal gains little distance from the faces. A fixed height that is safe for all surfels (a voxel) would be the
+/// largest error of tracing through a grid; these heights cause a tenth of that error. Cost: 1 to 6 map() calls per
+/// surfel.
 template <Field F>
 void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest, float* heights) {
     ProbeBatch probes;
@@ -54,8 +55,9 @@ float longest_ray(const F& field, float radius) {
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
 /// V = 0 if the ray hits the surface within the radius, else 1. The bent normal is the normalised mean of the open
-/// directions, weighted by cos θ in both forms. Rays start where the field is a tenth of a voxel, or the
-/// ray_offset() in exact fields. Source: lecture notes (aolecture). Cost: 1 to 6, plus rays × 5–20, map() calls per surfel.
+/// directions, weighted by cos θ in both forms. Rays start where the distance is a tenth of a voxel, or the
+/// ray_offset() in analytic fields. Source: lecture notes (aolecture). Cost: 1 to 6, plus rays × 5–20, map() calls per
+/// surfel.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< per surfel, >= 1
@@ -70,7 +72,7 @@ struct Traced {
     static constexpr std::string_view good =
         "converges to exact rays with more rays and finer voxels; needs no mesh; gives bent normals";
     static constexpr std::string_view bad =
-        "the slowest method on grids; noise proportional to 1/rays^0.75; blurs detail below a voxel";
+        "the slowest method on grids; noise proportional to about 1/rays^0.7; blurs detail below a voxel";
     static constexpr bool unbounded_radius = true; ///< the radius may be infinite
     static constexpr ChannelSet gives = Channel::ao | Channel::bent_normal;
 

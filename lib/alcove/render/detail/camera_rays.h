@@ -43,7 +43,7 @@ struct Hits {
 
 /// Tolerances in unit space, derived from the resolution of a field.
 struct RayPrecision {
-    float voxel;         ///< 0 for exact fields
+    float voxel;         ///< 0 for analytic fields
     float hit_distance;  ///< for two-sided fields; others are hit where the sign changes
     float shortest_step; ///< of a ray
     float difference;    ///< half width of the central differences for normals
@@ -67,7 +67,7 @@ class CameraRays {
     /// Side in pixels of a tile, whose rays share a start distance.
     static constexpr int tile_side = 8;
 
-    /// Traces the tiles [begin, end) of a region, counted row by row from its upper left. `hits` is that of the whole
+    /// Traces the tiles [begin, end) of a region, counted row by row from its upper left. `hits` covers the whole
     /// region: pixels row by row, with the samples of a pixel in sequence. Cost in map() calls: up to 48 per tile,
     /// 3–15 per ray near the surface, and 10 per hit (22 in a two-sided field); 99 more per hit near an edge seen at a
     /// grazing angle.

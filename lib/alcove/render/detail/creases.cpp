@@ -11,21 +11,21 @@ namespace alcove {
 namespace {
 
 /// Cosine of incidence below which a hit is corrected. Interpolation rounds edges by up to 0.3 voxels, and moves hits
-/// of such rays by a multiple of that.
+/// at grazing incidence by several times that.
 constexpr float grazing = 0.4f;
 
-/// A shorter gradient means that the sides of an edge meet within the central differences.
+/// A shorter gradient means that the sides of an edge meet within the central-difference stencil.
 constexpr float steady_slope = 0.95f;
 
-/// A ray may have passed an edge if, bend_reach voxels before the hit, the distance differed by more than min_bend
-/// voxels from that to the plane of the hit.
+/// A ray may have passed an edge if, bend_reach voxels before the hit, the field differed from the distance to the
+/// hit's tangent plane by more than min_bend voxels.
 constexpr float bend_reach = 1.5f, min_bend = 0.15f;
 
 /// Voxels from a hit to the samples that search for the sides of an edge: beyond the cells that the edge crosses.
 constexpr float side_reach = 2.25f;
 
 /// Half width of the central differences, voxels; and the tolerance of the gradient length, which is 1 where all
-/// distances around are those to one plane.
+/// distances around are distances to one plane.
 constexpr float difference = 0.25f, flatness = 0.002f;
 
 /// Largest cosine between the normals of two sides, and smallest cosine between the normals of one side; largest

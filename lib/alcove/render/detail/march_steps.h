@@ -13,8 +13,8 @@ namespace alcove {
 
 ///     1 - steps/(max_steps - 1)
 ///
-/// of plain sphere tracing to a twentieth of a voxel; in exact fields to 1/5000 of the diagonal, which is 0.001 in the
-/// reference scene. Source: Zucconi (2016). Thread-safe. Cost: up to max_steps map() calls per pixel, which a plain
+/// of plain sphere tracing to a twentieth of a voxel; in analytic fields to 1/5000 of the diagonal, which is 0.001 in
+/// the reference scene. Source: Zucconi (2016). Thread-safe. Cost: up to max_steps map() calls per pixel, which a plain
 /// sphere tracer would spend on the image anyway.
 struct MarchSteps {
     float radius = 0.0f; ///< unused

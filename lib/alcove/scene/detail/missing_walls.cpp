@@ -75,8 +75,8 @@ std::string missing_walls(const LoadedShape& loaded, const AnyField& field, cons
         positions.push_back(own.to_unit(p));
     const RaySurface surface(positions, loaded.mesh->triangles);
     const ThinWalls walls = thin_walls(points, surface, voxel, false);
-    // Near an edge, the distance to the far side is proportional to that to the edge. So edges contribute half the
-    // share at half the voxel, and cancel out here.
+    // Near an edge, the distance to the far side is proportional to the distance to the edge. So edges contribute half
+    // the share at half the voxel, and cancel out here.
     const double share = std::abs(2.0 * thin_walls(points, surface, 0.5f * voxel, false).share - walls.share);
     if (share < noticeable)
         return {};

@@ -57,8 +57,7 @@ OwnColors own_colors(const Mesh& mesh) {
     const bool baked = has_baked_colors(mesh);
     if (baked)
         result.warnings.emplace_back(
-            "the vertex colours are the ao of an earlier bake: not shown, as the picture would "
-            "have it twice");
+            "the vertex colours are the ao of an earlier bake: not shown, as the image would apply it twice");
     if (!mesh.vertex_colors.empty() && !baked) {
         result.of_vertices = decoded(mesh.vertex_colors);
         warn_of_alpha(mesh.vertex_colors, result);

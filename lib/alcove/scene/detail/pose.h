@@ -25,7 +25,7 @@ Pose operator*(const Pose& outer, const Pose& inner);
 /// The axis-aligned box around the posed box.
 Box posed(const Box& box, const Pose& pose);
 
-/// Transforms a field from the unit space of `own`, a frame in the space of a shape, to that of the scene.
+/// Transforms a field from the unit space of `own`, a frame in the space of a shape, to the unit space of the scene.
 template <Field F>
 AnyField posed(F field, const Frame& own, const Pose& pose, const Frame& scene) {
     return Transformed<F>{std::move(field), glm::mat3(pose.rotation),

@@ -81,7 +81,7 @@ class Collector {
         }
     }
 
-    /// Adds the zero surface of a field, on voxels relative to the size of the shape.
+    /// Adds the zero isosurface of a field, on voxels relative to the size of the shape.
     void add_field(const LoadedShape& loaded, const AnyField& field) {
         if (two_sided(field))
             throw InputError(loaded.object->name +

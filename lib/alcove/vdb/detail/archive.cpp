@@ -95,7 +95,7 @@ void check_root(FloatGrid& grid, const std::filesystem::path& file) {
     if (tiles > most)
         refuse(file,
                fmt::format("grid '{}' has {} tiles of 4096³ voxels with one value, but few of them can be inside: "
-                           "write a narrow-band level set, as levelSetRebuild of OpenVDB does",
+                           "write a narrow-band level set, as OpenVDB's levelSetRebuild does",
                            grid.getName(), tiles));
 }
 

@@ -9,8 +9,8 @@
 
 namespace alcove {
 
-/// The width of the inner band, in the unit of the values: down to the value that fills the inside, or that of the outer
-/// band if nothing is filled.
+/// The width of the inner band, in the unit of the values: down to the value that fills the inside, or as wide as the
+/// outer band if nothing is filled.
 float inner_band_of(const VdbGrid& grid);
 
 /// The centre of the voxel of index (0, 0, 0), scene units.

@@ -7,7 +7,7 @@
 
 namespace alcove {
 
-/// How much values change per unit of length near the zero surface: 1 for distances in scene units. The median over
+/// How much values change per unit of length near the zero isosurface: 1 for distances in scene units. The median over
 /// a few thousand voxels, which are cubes of edge `voxel`.
 double slope_of(const VdbGrid& grid, double voxel);
 

@@ -30,10 +30,10 @@ struct VdbStructure {
 
 /// Parses the names and metadata of all grids, and grids of floats and doubles down to the values of each leaf, for all
 /// types of compression. Skips the values of other types.
-/// \throw InputError if the file is not a .vdb, a length exceeds the rest of the file or differs from that of its
-/// values, offsets or masks that are stored twice differ, a transform is inconsistent, zipped values do not unpack, or
-/// bytes are left over; also for files that OpenVDB before 2.0 (2013) wrote. Cost: reads the file once and unzips what
-/// is zipped.
+/// \throw InputError if the file is not a .vdb, a length exceeds the rest of the file or differs from the length of its
+/// values, offsets or masks that are stored twice differ, a transform is inconsistent, zipped values cannot be
+/// decompressed, or bytes are left over; also for files that OpenVDB before 2.0 (2013) wrote. Cost: reads the file once
+/// and unzips what is zipped.
 VdbStructure check_vdb_structure(const std::filesystem::path& file);
 
 }

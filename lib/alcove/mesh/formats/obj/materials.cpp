@@ -98,8 +98,8 @@ void parse(std::string_view text, Materials& materials) {
     }
 }
 
-/// The path of a file that an OBJ in `folder` names. Also found are paths with backslashes, and files that lie beside
-/// the OBJ though it names another folder.
+/// The path of a file that an OBJ in `folder` names. Accepts backslashes, and falls back to a file of that name beside
+/// the OBJ.
 std::optional<std::filesystem::path> find_file(std::string name, const std::filesystem::path& folder) {
     std::replace(name.begin(), name.end(), '\\', '/');
     for (const std::filesystem::path& file : {folder / name, folder / std::filesystem::path(name).filename()}) {
@@ -140,7 +140,7 @@ void read_file(const std::string& name, const std::filesystem::path& folder, Mat
     }
 }
 
-/// What the picture lacks of the materials that faces use, in one line; empty if nothing.
+/// What the image lacks of the materials that faces use, in one line; empty if nothing.
 std::string left_out(const std::set<const Material*>& used) {
     std::size_t textures = 0, transparent = 0, emitting = 0;
     std::set<std::string_view> keywords;

@@ -1,6 +1,7 @@
 /// The text of an OBJ file, and the positions of its vertices in it.
 #pragma once
 
+#include "alcove/base/detail/messages.h"
 #include "alcove/mesh/detail/source.h"
 #include "alcove/mesh/formats/text_encoding.h"
 
@@ -18,7 +19,7 @@ class ObjDocument : public SourceDocument {
   public:
     std::string_view text; ///< of the whole file, in memory that `keeper` owns
     std::shared_ptr<const void> keeper;
-    std::filesystem::path folder;          ///< that of the file, from which it names other files
+    std::filesystem::path folder;          ///< of the file; the names of other files are relative to it
     std::vector<std::size_t> vertex_lines; ///< byte offset of the 'v' of each vertex, in file order
     std::vector<std::size_t> file_lines;   ///< byte offset of each keyword that is followed by names of files
     std::string_view comment(std::string_view beginning) const override {
@@ -44,6 +45,18 @@ class ObjDocument : public SourceDocument {
 
     /// Lines that a Mesh cannot represent: a description ("'usemtl' lines") and a count above 0.
     std::vector<std::pair<std::string, std::size_t>> other_lines;
+
+    /// One text for each of other_lines: "2 'usemtl' lines", "1 comment line".
+    std::vector<std::string> other_line_counts() const {
+        constexpr std::string_view plural = "lines"; // in each description
+        std::vector<std::string> counts;
+        for (const auto& [what, count] : other_lines) {
+            std::string one = what;
+            one.erase(what.find(plural) + plural.size() - 1, 1);
+            counts.push_back(counted(count, one, what));
+        }
+        return counts;
+    }
 };
 
 }

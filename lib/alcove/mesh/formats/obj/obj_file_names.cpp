@@ -39,17 +39,16 @@ class NameMover {
         for (const std::size_t offset : document_.file_lines)
             move_line(text_.begin() + offset);
         if (!moved_.replacements.empty())
-            moved_.warnings.push_back(
-                counted(moved_.replacements.size(), "name of another file was", "names of other files were") +
-                " changed to work from the folder of the output: " + first_change_);
+            moved_.warnings.push_back(counted(moved_.replacements.size(), "path was", "paths were") +
+                                      " rewritten relative to the output folder: " + first_change_);
         if (lost_ > 0)
-            moved_.warnings.push_back(counted(lost_, "name of another file was", "names of other files were") +
-                                      " kept, but no such file was found from the folder of the input: " + first_lost_);
+            moved_.warnings.push_back(counted(lost_, "path was", "paths were") +
+                                      " kept, but no such file was found relative to the input folder: " + first_lost_);
         return std::move(moved_);
     }
 
   private:
-    /// Takes as many tokens for a name as lead to a file.
+    /// Takes the most tokens that together name a file.
     void move_line(const char* keyword) {
         line_.move_to(keyword);
         line_.word("a keyword");
@@ -88,7 +87,7 @@ class NameMover {
         return true;
     }
 
-    /// The name as a path, if it leads to a file from the folder of the input.
+    /// The name as a path, if it points to a file from the input folder.
     std::optional<fs::path> file_named(std::string_view name) {
         std::string with_slashes(name);
         std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');

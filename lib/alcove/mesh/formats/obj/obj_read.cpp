@@ -237,14 +237,14 @@ class ObjReader {
             const std::string first = in_quotes(first_unknown_);
             if (mesh_.vertex_count() == 0)
                 file_.fail_at_line(first_unknown_.data(), first + " is not an OBJ keyword; is this an OBJ file?");
-            mesh_.warnings.push_back(counted(unknown_lines_, "line does", "lines do") +
-                                     " not begin with an OBJ keyword, the first is line " +
-                                     grouped(file_.line_at(first_unknown_.data())) + " with " + first +
-                                     "; kept as text");
+            mesh_.warnings.push_back(
+                counted(unknown_lines_, "line does", "lines do") + " not begin with an OBJ keyword (first: line " +
+                grouped(file_.line_at(first_unknown_.data())) + " with " + first + "); kept as text");
         }
         if (text_.padding() > 0)
-            mesh_.warnings.push_back(counted(text_.padding(), "byte", "bytes") +
-                                     " (NUL or Ctrl-Z) after the last line left out");
+            mesh_.warnings.push_back(counted(text_.padding(), "byte (NUL or Ctrl-Z) after the last line was",
+                                             "bytes (NUL or Ctrl-Z) after the last line were") +
+                                     " ignored");
     }
 
     void finish_document() {

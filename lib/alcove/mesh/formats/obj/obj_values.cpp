@@ -28,7 +28,7 @@ class ValueAdder {
         if (!values_.corners.empty())
             values_.corners.resize(mesh_.corners.size());
         warn_of(values_.damaged_uvs, "'vt'", "1 to 3", "a number that cannot be read counts as 0");
-        warn_of(values_.damaged_normals, "'vn'", "3", "where a normal cannot be read, that of the faces is used");
+        warn_of(values_.damaged_normals, "'vn'", "3", "where a normal cannot be read, the normal of the faces is used");
         drop_missing(&CornerReference::uv, values_.uv_references, values_.uvs.size(), "texture coordinates");
         drop_missing(&CornerReference::normal, values_.normal_references, values_.normals.size(), "normals");
         add_colors();
@@ -45,8 +45,8 @@ class ValueAdder {
     void warn_of(const DamagedLines& lines, const std::string& keyword, const char* numbers, const char* effect) {
         const std::string singular = keyword + " line does", plural = keyword + " lines do";
         warn(lines.count, singular.c_str(), plural.c_str(),
-             std::string("not hold ") + numbers + " finite numbers, the first is line " +
-                 grouped(file_.line_at(lines.first)) + "; " + effect);
+             std::string("not hold ") + numbers + " finite numbers (first: line " +
+                 grouped(file_.line_at(lines.first)) + "); " + effect);
     }
 
     /// Removes the references to items that the file does not have.
@@ -151,9 +151,10 @@ class ValueAdder {
         }
         for (const Vec3d& sum : sums)
             mesh_.normals.push_back(unit_or_zero(sum));
-        warn(several, "vertex has", "vertices have",
-             "more than one normal, as at hard edges, but one value for all its sides: that of the direction of their "
-             "sum; split the vertices there before export (Blender: Edge Split) to get one value per side");
+        warn(several, "vertex has several normals (hard edges) but stores",
+             "vertices have several normals (hard edges) but store",
+             "one value, computed for their average; split the vertices there before export (Blender: Edge Split) to "
+             "get one value per side");
     }
 
     Mesh& mesh_;

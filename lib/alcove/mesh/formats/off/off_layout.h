@@ -30,7 +30,7 @@ std::optional<OffLayout> off_layout(std::string_view token);
 
 /// Chooses the order of the groups in which colours have the range of colours, normals have length 1 and texture
 /// coordinates are in the texture. `rows` holds the numbers of some vertices, one vertex after another. Where several
-/// orders fit equally well, that of `layout` stays.
+/// orders fit equally well, the order in `layout` stays.
 void choose_order(OffLayout& layout, std::span<const double> rows, std::size_t color_components);
 
 }

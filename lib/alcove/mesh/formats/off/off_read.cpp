@@ -141,8 +141,9 @@ class OffReader {
             mesh_.warnings.push_back(grouped(text_.bytes_left()) + " bytes after the last face were not read, from " +
                                      in_quotes(text_.peek()) + " in line " + grouped(file_.line_at(text_.at())));
         else if (text_.padding() > 0)
-            mesh_.warnings.push_back(counted(text_.padding(), "byte", "bytes") +
-                                     " (NUL or Ctrl-Z) after the last face left out");
+            mesh_.warnings.push_back(counted(text_.padding(), "byte (NUL or Ctrl-Z) after the last face was",
+                                             "bytes (NUL or Ctrl-Z) after the last face were") +
+                                     " ignored");
     }
 
     void warn_of_order() {

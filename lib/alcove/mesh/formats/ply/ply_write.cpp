@@ -150,8 +150,8 @@ std::string header_comments(const PlyDocument& document, const Mesh& mesh) {
     return text;
 }
 
-/// Lists the properties of the vertices that the columns replace, except whole colours, and values that a comment says an
-/// earlier run of the same program made.
+/// Lists the properties of the vertices that the columns replace, except whole colours, and values that a comment says
+/// an earlier run of the same program made.
 void list_replaced(const PlyDocument& document, const Mesh& mesh, std::vector<std::string>& lost) {
     const auto list = [&](const std::string& name) {
         if (document.has_vertex_property(name))
@@ -192,8 +192,8 @@ std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path
         document = &made;
     }
     if (const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get())) {
-        for (const auto& [what, count] : text->other_lines)
-            lost.push_back("not stored in PLY: " + grouped(count) + " " + what);
+        for (const std::string& lines : text->other_line_counts())
+            lost.push_back("not stored in PLY: " + lines);
         if (text->weights > 0)
             lost.push_back("not stored in PLY: the weights of " + counted(text->weights, "vertex", "vertices"));
     }

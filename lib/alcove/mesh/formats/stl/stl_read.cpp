@@ -85,9 +85,9 @@ class TextReader {
         if (in_solid_)
             mesh_.warnings.emplace_back("the file ends without 'endsolid': check that it is complete");
         if (skipped_ > 0)
-            mesh_.warnings.push_back(counted(skipped_, "line does", "lines do") +
-                                     " not begin with an STL keyword, the first with " + in_quotes(first_skipped_) +
-                                     "; left out");
+            mesh_.warnings.push_back(
+                counted(skipped_, "line does", "lines do") + " not begin with an STL keyword (first: line " +
+                grouped(file_.line_at(first_skipped_.data())) + " with " + in_quotes(first_skipped_) + "); left out");
         join_corners(mesh_);
         return std::move(mesh_);
     }
