@@ -256,9 +256,10 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
             ->type_name("NAME")
             ->default_str("grid");
     app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error target is not met");
-    add_method_options(app, verb.method,
-                       "Use this method, with its defaults or, with --error, as many rays or samples as needed. "
-                       "One of: ");
+    add_method_options(
+        app, verb.method,
+        "Use this method: with its defaults, or, if --error is given, with as many rays or samples as that "
+        "error needs. One of: ");
     via->excludes(app.get_option("--method"));
     app.add_flag_callback(
         "--no-pilot", [&bake] { bake.pilot = false; },
@@ -286,8 +287,8 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);
     app.add_option("--tessellate", verb.tessellate,
-                   "Split faces first, so that ao can vary across them: edges longer than LEN, or auto: wherever ao "
-                   "differs from its interpolation by more than the error")
+                   "Split faces first, so that ao can vary across them. LEN: split edges longer than this; auto: split "
+                   "where ao differs from the value interpolated between vertices by more than the error")
         ->check(parsable([](const std::string& text) {
             if (text != "auto")
                 length_without_vx(text, "auto, 0.2 (scene units) or 10% (of the diagonal)");
@@ -312,7 +313,8 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
 }
 
 void add_occluders(CLI::App& app, BakeVerb& verb) {
-    app.add_flag("--self", verb.bake.self, "Each connected part is occluded only by itself, by --occluder meshes and by the --ground plane");
+    app.add_flag("--self", verb.bake.self,
+                 "Each connected part is occluded only by itself, by --occluder meshes and by the --ground plane");
     app.add_option("--occluder", verb.occluders,
                    "Mesh that also occludes, in the same coordinates; repeat the option for more")
         ->option_text("MESH");

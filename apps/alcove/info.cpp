@@ -86,21 +86,24 @@ Facts facts_of_grid(const std::string& file) {
         facts.add("box", nullptr, "none: no value changes sign, so there is no surface");
     }
     add_grids(facts, file, stack);
-    auto levels = nlohmann::ordered_json::array();
+    auto levels = nlohmann::ordered_json::array(), partial = levels;
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < stack.levels.size(); ++i) {
-        const LevelSet& level = stack.levels[i];
-        const double voxel = stack.scene_voxel(i);
-        levels.push_back({{"voxel", voxel},
-                          {"active_voxels", level.active_voxels},
-                          {"bytes", level.bytes},
-                          {"band_voxels", level.outer_band},
-                          {"band", level.outer_band * voxel}});
-        lines.push_back(fmt::format("voxel {:.6g}, {} active, {:.1f} MB, band {:g} voxels = {:.6g}", voxel,
+    const auto add_level = [&](const LevelSet& level, double voxel, nlohmann::ordered_json& to, const char* kind) {
+        to.push_back({{"voxel", voxel},
+                      {"active_voxels", level.active_voxels},
+                      {"bytes", level.bytes},
+                      {"band_voxels", level.outer_band},
+                      {"band", level.outer_band * voxel}});
+        lines.push_back(fmt::format("voxel {:.6g}, {} active, {:.1f} MB, band {:g} voxels = {:.6g}{}", voxel,
                                     grouped(level.active_voxels), static_cast<double>(level.bytes) / 1e6,
-                                    level.outer_band, level.outer_band * voxel));
-    }
+                                    level.outer_band, level.outer_band * voxel, kind));
+    };
+    for (const LevelSet& level : stack.partial)
+        add_level(level, level.voxel * scale, partial, ", near thin walls and narrow gaps only");
+    for (std::size_t i = 0; i < stack.levels.size(); ++i)
+        add_level(stack.levels[i], stack.scene_voxel(i), levels, "");
     facts.add("diagonal", scale); // the unit of percentages; in files of Alcove, that of the mesh
+    facts.add("partial_levels", partial);
     facts.add("levels", levels, lines);
     facts.add("warnings", stack.warnings, stack.warnings);
     return facts;

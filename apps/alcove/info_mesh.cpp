@@ -124,7 +124,7 @@ void add_sign(Facts& facts, const Mesh& mesh) {
     try {
         const bool solid = sign_of(mesh, triangles) == Sign::solid;
         facts.add("sign", solid ? "solid" : "sheet",
-                  solid ? "a solid" : "a sheet: faces occlude from both sides, and there is no inside");
+                  solid ? "a solid" : "a sheet: both sides of the faces count as outside, and there is no inside");
     } catch (const LimitError&) {
         facts.add("sign", nullptr, "unknown: no grid fits in memory");
     }

@@ -321,7 +321,8 @@ void add_measure(CLI::App& program) {
     add_run_options(*verb, options->common);
     verb->footer(
         "The reference is 1,024 exact rays per vertex, at up to 20,000 vertices; each method bakes all vertices.\n"
-        "Seconds are CPU time of the process for one pass. A grid is built once per radius and voxel size, and its\n"
+        "Seconds are the CPU time of the process for one bake. A grid is built once per radius and voxel size, and "
+        "its\n"
         "time is added to each method that uses it.\n\n"
         "Examples:\n"
         "  alcove measure scan.ply --report scan.html\n"

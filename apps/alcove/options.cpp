@@ -70,7 +70,7 @@ void add_limits(CLI::App& verb) {
     add("--max-memory", limit_memory,
         "Memory for level sets and images: 2GB, 500MB, 1.5GiB. Default: half of the machine's memory");
     add("--max-read", limit_reading,
-        "Largest file to read; a pipe is read up to this size. Default: half of --max-memory, at most 4GB");
+        "Largest file to read; a pipe that delivers more is refused. Default: half of --max-memory, at most 4GB");
 }
 
 std::pair<std::string, double> parse_setting(const std::string& setting) {
@@ -155,14 +155,14 @@ void add_radius_option(CLI::App& verb, Length& radius, const std::string& descri
 void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign) {
     verb.add_option_function<std::string>(
             "--voxel", [&voxel](const std::string& text) { voxel = parse_voxel(text); },
-            "Edge of the finest voxel: 0.2, 0.5%, or auto (what the radius and the error need)")
+            "Edge of the finest voxel: 0.2, 0.5%, or auto (from the radius; in a bake, also from the error)")
         ->check(parsable(parse_voxel))
         ->type_name("LEN")
         ->default_str("auto");
     add_choice<SignChoice>(
         verb, "--sign", sign,
         {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}},
-        "solid: closed, with an inside; sheet: faces occlude from both sides; auto: depends on the mesh")
+        "solid: closed, with an inside; sheet: both sides of the faces count as outside; auto: depends on the mesh")
         ->type_name("SIGN")
         ->default_str("auto");
 }

@@ -93,13 +93,15 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     CLI::Option* quality = add_choice<std::optional<Quality>>(
         verb, "--quality", request.quality,
         {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
-        "Quality of the default method (guided), which determines the number of rays: draft, good, fine");
+        "Quality of the default method (guided): draft, good or fine. It sets the number of rays");
     quality->type_name("NAME")->default_str("good");
-    add_method_options(verb, request.method, "Estimator, image method (march_steps, screen_space), or none: ");
+    add_method_options(verb, request.method,
+                       "Image method (march_steps, screen_space), none, or an estimator, one of: ");
     verb.get_option("--method")->excludes(quality);
     verb.get_option("--rays")->description(
         "Rays per sample of a pixel, for methods that trace rays (default for traced and exact: 16)");
-    add_triple(verb, "--eye", request.eye, Triple::point, "Position of the camera; default: chosen so that everything is in view");
+    add_triple(verb, "--eye", request.eye, Triple::point,
+               "Position of the camera; default: chosen so that everything is in view");
     add_triple(verb, "--look-at", request.look_at, Triple::point,
                "Point that the camera looks at; default: the centre");
     add_triple(verb, "--up", request.up, Triple::direction, "Up direction")->default_str("0,1,0");

@@ -84,12 +84,17 @@ void run(const VoxelizeVerb& verb) {
         warnings.push_back(gaps.advice());
     warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
     print_warnings(warnings, verb.common);
-    nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+    const auto facts_of = [](const LevelSet& level, double voxel) {
+        return nlohmann::ordered_json{{"voxel", voxel},
+                                      {"band", level.outer_band},
+                                      {"active_voxels", level.active_voxels},
+                                      {"bytes", level.bytes}};
+    };
+    auto levels = nlohmann::ordered_json::array(), partial = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < stack.levels.size(); ++i)
-        levels.push_back({{"voxel", stack.scene_voxel(i)},
-                          {"band", stack.levels[i].outer_band},
-                          {"active_voxels", stack.levels[i].active_voxels},
-                          {"bytes", stack.levels[i].bytes}});
+        levels.push_back(facts_of(stack.levels[i], stack.scene_voxel(i)));
+    for (const LevelSet& level : stack.partial)
+        partial.push_back(facts_of(level, level.voxel * stack.frame.diagonal));
     if (verb.common.json)
         print_json({{"input", verb.input},
                     {"output", verb.output},
@@ -97,15 +102,22 @@ void run(const VoxelizeVerb& verb) {
                     {"faces", mesh.face_count()},
                     {"sign", name_of(stack.sign)},
                     {"levels", levels},
+                    {"partial_levels", partial},
                     {"grid_bytes", stack.bytes()},
                     {"seconds", seconds},
                     {"peak_rss_bytes", peak_resident_bytes()},
                     {"warnings", warnings}});
-    else if (!verb.common.quiet)
+    else if (!verb.common.quiet) {
+        const auto say_level = [&](const std::string& name, const nlohmann::ordered_json& level,
+                                   std::string_view kind) {
+            say(fmt::format("{}: {}: voxel {:.4g}, {} active voxels, {}", verb.output, name,
+                            level["voxel"].get<double>(), grouped(level["active_voxels"]), kind));
+        };
+        for (const auto& level : partial)
+            say_level("partial level", level, "near thin walls and narrow gaps only");
         for (std::size_t i = 0; i < levels.size(); ++i)
-            say(fmt::format("{}: level {}: voxel {:.4g}, {} active voxels, {}", verb.output, i + 1,
-                            levels[i]["voxel"].get<double>(), grouped(levels[i]["active_voxels"]),
-                            name_of(stack.sign)));
+            say_level(fmt::format("level {}", i + 1), levels[i], name_of(stack.sign));
+    }
 }
 
 }

@@ -55,6 +55,36 @@ TEST_F(GridFile, AStackComesBackToTheBit) {
     }
 }
 
+TEST_F(GridFile, PartialLevelsComeBackToo) {
+    Mesh mesh; // two spheres that nearly touch
+    test::add_part(mesh, test::sphere_mesh(5), 10.0, {0, 0, 0});
+    test::add_part(mesh, test::sphere_mesh(5), 10.0, {20.05, 0, 0});
+    const GridStack stack = voxelize(mesh, triangulate(mesh).triangles, {.grid = {.radius = 0.05f}});
+    ASSERT_EQ(stack.partial.size(), 2u);
+    write_grids(stack, path("partial.vdb"));
+    const GridStack back = read_grids(path("partial.vdb"));
+    EXPECT_EQ(back.levels.size(), stack.levels.size());
+    ASSERT_EQ(back.partial.size(), 2u);
+    const LevelStack a(stack), b(back);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
+    int changed = 0;
+    GridStack whole = stack;
+    whole.partial.clear();
+    const LevelStack coarse(whole);
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 p = stack.frame.to_unit({10.0 + coordinate(random), coordinate(random), coordinate(random)});
+        EXPECT_EQ(a.map(p), b.map(p));
+        changed += a.map(p) != coarse.map(p);
+    }
+    EXPECT_GT(changed, 1000);
+    std::vector<std::string> names;
+    for (const StoredGrid& grid : list_grids(path("partial.vdb")))
+        names.push_back(grid.name);
+    for (const char* name : {"surface", "surface_fine_1", "surface_fine_2"})
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
 TEST_F(GridFile, OthersFindLevelSetsInSceneUnits) {
     write_grids(sphere_stack(10.0, {100, 0, 0}), path("stack.vdb"));
     io::File file(path("stack.vdb").string());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace alcove {
 namespace {
@@ -14,16 +15,21 @@ constexpr std::size_t block = 256;
 
 LevelStack::LevelStack(const GridStack& stack)
     : two_sided_(stack.sign == Sign::sheet), knows_inside_(!two_sided_ && stack.knows_inside()) {
-    auto levels = std::make_shared<std::vector<Bricks>>();
+    const auto scale = static_cast<float>(stack.value_unit / stack.frame.diagonal);
+    auto levels = std::make_shared<std::vector<Bricks>>(), partial = std::make_shared<std::vector<Bricks>>();
     for (const LevelSet& level : stack.levels)
-        levels->emplace_back(level, static_cast<float>(stack.value_unit / stack.frame.diagonal));
+        levels->emplace_back(level, scale);
+    for (auto level = stack.partial.rbegin(); level != stack.partial.rend(); ++level)
+        partial->emplace_back(*level, scale, Bricks::Extent::partial);
     levels_ = std::move(levels);
+    partial_ = std::move(partial);
 }
 
 std::size_t LevelStack::bytes() const {
     std::size_t sum = 0;
-    for (const Bricks& level : *levels_)
-        sum += level.bytes();
+    for (const auto& set : {levels_, partial_})
+        for (const Bricks& level : *set)
+            sum += level.bytes();
     return sum;
 }
 
@@ -48,6 +54,9 @@ std::size_t LevelStack::level_for(float reach) const {
 }
 
 float LevelStack::map(const Vec3& p) const {
+    for (auto level = partial_->rbegin(); level != partial_->rend(); ++level)
+        if (const float distance = level->map(p); distance < level->usable() && distance > -level->usable_inside())
+            return distance;
     float distance = levels_->front().map(p), nearest = levels_->front().usable();
     if (!cut(distance, nearest))
         return distance;
@@ -66,13 +75,41 @@ float LevelStack::map(const Vec3& p) const {
 }
 
 void LevelStack::map(const Points& points, float reach, float* distances) const {
-    if (reach <= this->reach()) {
+    const bool one_level = reach <= this->reach();
+    if (one_level)
         sample_bricks((*levels_)[level_for(reach)].view(), points, distances);
+    if (one_level && partial_->empty())
         return;
+    for (std::size_t begin = 0; begin < points.count; begin += block) {
+        const Points some{points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)};
+        if (!one_level)
+            escalate(some, distances + begin);
+        refine(some, distances + begin);
     }
-    for (std::size_t begin = 0; begin < points.count; begin += block)
-        escalate({points.x + begin, points.y + begin, points.z + begin, std::min(block, points.count - begin)},
-                 distances + begin);
+}
+
+/// Replaces distances by those of the finest partial level that has them.
+void LevelStack::refine(const Points& points, float* distances) const {
+    std::array<float, block> x, y, z, values;
+    std::array<std::uint16_t, block> near;
+    for (const Bricks& level : *partial_) {
+        // Where the coarser distance is larger, even a wall that it misses is beyond the band.
+        const float reach = level.usable() + levels_->front().voxel();
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < points.count; ++i)
+            if (std::fabs(distances[i]) < reach) {
+                x[count] = points.x[i];
+                y[count] = points.y[i];
+                z[count] = points.z[i];
+                near[count++] = static_cast<std::uint16_t>(i);
+            }
+        if (count == 0)
+            return;
+        sample_bricks(level.view(), {x.data(), y.data(), z.data(), count}, values.data());
+        for (std::size_t k = 0; k < count; ++k)
+            if (values[k] < level.usable() && values[k] > -level.usable_inside())
+                distances[near[k]] = values[k];
+    }
 }
 
 void LevelStack::escalate(const Points& points, float* distances) const {

@@ -16,7 +16,7 @@ class Bricks; // one level in the layout of the sampler (field/detail/bricks.h)
 /// result is a lower bound: the end of that band, or the distance to the bounding box of the surface. The same
 /// applies inside if GridStack::knows_inside(); otherwise the inside is limited by the end of the finest band. A
 /// probe that is known to be within `reach` of the surface samples only the one level for that height, whose voxel
-/// is at most half of it.
+/// is at most half of it. Partial levels replace the distances in their bands.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
 class LevelStack {
@@ -44,8 +44,10 @@ class LevelStack {
         return distance >= usable || (knows_inside_ && distance <= -usable);
     }
     void escalate(const Points& points, float* distances) const;
+    void refine(const Points& points, float* distances) const;
 
     std::shared_ptr<const std::vector<Bricks>> levels_;
+    std::shared_ptr<const std::vector<Bricks>> partial_; // from coarsest to finest
     bool two_sided_, knows_inside_;
 };
 

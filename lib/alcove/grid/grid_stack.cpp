@@ -13,10 +13,11 @@ GridStack reframed(GridStack stack, const Frame& frame) {
     const Frame old = std::exchange(stack.frame, frame);
     if (old.center == frame.center && old.diagonal == frame.diagonal)
         return stack;
-    for (LevelSet& level : stack.levels) {
-        level.origin = exact_in_unit(frame, level.origin * old.diagonal + old.center);
-        level.voxel *= old.diagonal / frame.diagonal;
-    }
+    for (std::vector<LevelSet>* set : {&stack.levels, &stack.partial})
+        for (LevelSet& level : *set) {
+            level.origin = exact_in_unit(frame, level.origin * old.diagonal + old.center);
+            level.voxel *= old.diagonal / frame.diagonal;
+        }
     return stack;
 }
 

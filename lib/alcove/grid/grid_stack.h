@@ -51,6 +51,9 @@ struct GridStack {
     double value_unit = 1.0;
     Sign sign = Sign::solid;
     std::vector<LevelSet> levels;
+    /// Levels finer than `levels`, from finest to coarsest, that exist only near walls and gaps thinner than two voxels
+    /// of the finest level. A leaf has values if the next leaves along the axes exist, too.
+    std::vector<LevelSet> partial{};
     std::optional<Lattice> lattice{};  ///< of all voxel centres, with index (0, 0, 0) at its origin; if requested
     bool clustered = false;            ///< whether GridOptions::cluster reduced the triangles
     std::vector<std::string> sources;  ///< the grids of the file that it was read from
@@ -68,8 +71,9 @@ struct GridStack {
     }
     std::size_t bytes() const {
         std::size_t sum = 0;
-        for (const LevelSet& level : levels)
-            sum += level.bytes;
+        for (const std::vector<LevelSet>* set : {&levels, &partial})
+            for (const LevelSet& level : *set)
+                sum += level.bytes;
         return sum;
     }
 };

@@ -7,6 +7,7 @@
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/clustered.h"
 #include "alcove/grid/detail/level_set.h"
+#include "alcove/grid/detail/partial_levels.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/grid/detail/sign.h"
 
@@ -63,6 +64,15 @@ GridOptions with_voxel_of_lattice(GridOptions options, const Frame& frame) {
     return options;
 }
 
+/// Partial levels pay where few voxels are unresolved. Elsewhere, a finer voxel serves better.
+constexpr double most_unresolved = 0.2;
+
+/// As many bricks again as the finest level has, and half of that: at most about three times the time and memory.
+std::size_t bricks_for_partial_levels(std::size_t finest, const LevelPlan& plan) {
+    return static_cast<std::size_t>(
+        std::min(plan.spare_bytes / bytes_per_partial_brick, 1.5 * static_cast<double>(finest)));
+}
+
 TriangleTree tree_of(const Surface& surface) {
     const FragmentLeaves fragments(surface.positions, surface.triangles);
     if (fragments.count() == 0)
@@ -115,16 +125,31 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     const Band band =
         normals ? Band(tree, *normals, plan.outer_band) : Band(tree, columns, {plan.outer_band, plan.inner_band});
     done(0.3);
+    const bool refines = options.grid.refine && options.grid.voxel == 0.0f && !stack.lattice;
+    std::vector<NearestOfBrick> nearest;
     for (int level = 0; level < plan.levels; ++level) {
         const double voxel = std::ldexp(placing.voxel, level);
-        LevelSet set = level_set(band, 1 << level, voxel * stack.frame.diagonal / stack.value_unit, placing.first,
-                                 level > 0 ? &stack.levels.back() : nullptr);
+        LevelSet set =
+            level_set(band, 1 << level, voxel * stack.frame.diagonal / stack.value_unit, placing.first,
+                      level > 0 ? &stack.levels.back() : nullptr, level == 0 && refines ? &nearest : nullptr);
         set.origin = placing.origin;
         set.voxel = voxel;
         set.outer_band = plan.outer_band;
         set.inner_band = normals ? plan.outer_band : plan.inner_band;
         stack.levels.push_back(std::move(set));
         done(1.0 - 0.2 * std::ldexp(1.0, -2 * level));
+    }
+    if (refines) {
+        const double value_scale = placing.voxel * stack.frame.diagonal / stack.value_unit;
+        const UnresolvedVoxels unresolved = find_unresolved(nearest, near);
+        if (unresolved.share <= most_unresolved)
+            stack.partial = partial_levels(unresolved, {.surface = whole,
+                                                        .sign = stack.sign,
+                                                        .width = band.width(),
+                                                        .voxel = placing.voxel,
+                                                        .origin = placing.origin,
+                                                        .value_scale = value_scale,
+                                                        .max_bricks = bricks_for_partial_levels(nearest.size(), plan)});
     }
     done(1.0);
     return stack;

@@ -25,6 +25,8 @@ struct GridOptions {
     float outer_band = 5.0f;
     /// Inner band width of every level of a solid, voxels, at least 2. Occlusion never samples deeper.
     float inner_band = 2.0f;
+    /// If the voxel is chosen, add partial levels near walls and gaps thinner than two voxels (GridStack::partial).
+    bool refine = true;
     /// Where triangles are far smaller than voxels, voxelize a surface with fewer triangles: usually a few
     /// hundredths of a voxel away from the original, √3 voxels at most.
     bool cluster = false;

@@ -91,8 +91,8 @@ struct Measurement {
 
 enum class Pictures : bool { none, painted };
 
-/// Bakes all vertices at the radius of the truth and compares those that have one. `grid` may be null for methods that
-/// use none. \throw what the method throws.
+/// Bakes all vertices at the radius of the reference and compares those that have a reference value. `grid` may be null
+/// for methods that use none. \throw what the method throws.
 Measurement measure(const MeasuredMesh& mesh, const Truth& truth, const MeasuredGrid* grid, const MethodChoice& choice,
                     Pictures pictures = Pictures::none, const Progress& progress = {});
 

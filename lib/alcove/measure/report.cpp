@@ -179,7 +179,7 @@ class Page {
         return text;
     }
 
-    /// Error against seconds; joins the points of a method with different sample counts.
+    /// Error against seconds; a line connects the points of one method at its different sample counts.
     std::string times(const Group& group, Cost cost, const std::string& title) const {
         Chart chart{.x_title = title, .y_title = "RMSE"};
         const std::vector<std::size_t> front = front_of(group, cost);

@@ -28,7 +28,8 @@ using openvdb::FloatGrid;
 namespace io = openvdb::io;
 
 constexpr const char* creator = "Alcove";
-constexpr const char *checksum_name = "alcove:checksum", *lattice_name = "alcove:lattice";
+constexpr const char *checksum_name = "alcove:checksum", *lattice_name = "alcove:lattice",
+                     *partial_name = "alcove:partial";
 
 std::string level_name(std::size_t level) {
     return level == 0 ? "surface" : fmt::format("surface_{}", level + 1);
@@ -113,8 +114,10 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))
             refuse(file, fmt::format("grid '{}' lacks its alcove metadata: write it again", grid->getName()));
-        stack.levels.push_back(std::move(level));
+        (number(*grid, partial_name) > 0.0 ? stack.partial : stack.levels).push_back(std::move(level));
     }
+    if (stack.levels.empty())
+        refuse(file, "contains only partial levels: choose 'surface', too");
     return stack;
 }
 
@@ -233,35 +236,39 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
                                   "scale the scene",
                                   file.string(), voxel));
     openvdb::GridCPtrVec grids;
-    for (std::size_t i = 0; i < stack.levels.size(); ++i) {
-        const LevelSet& level = stack.levels[i];
+    const auto add = [&](const LevelSet& level, double scene_voxel, const std::string& name, bool is_partial) {
         const auto grid = level.grid->grid->deepCopy();
         scale_values(*grid, stack.value_unit);
-        const auto transform = openvdb::math::Transform::createLinearTransform(stack.scene_voxel(i));
+        const auto transform = openvdb::math::Transform::createLinearTransform(scene_voxel);
         const Vec3d origin =
             stack.lattice ? stack.lattice->origin : level.origin * stack.frame.diagonal + stack.frame.center;
         transform->postTranslate({origin.x, origin.y, origin.z});
         grid->setTransform(transform);
-        grid->setName(level_name(i));
+        grid->setName(name);
         grid->setCreator(creator);
         grid->setGridClass(openvdb::GRID_LEVEL_SET);
-        const auto put = [&](const char* name, double value) {
-            grid->insertMeta(name, openvdb::DoubleMetadata(value));
-        };
+        const auto put = [&](const char* key, double value) { grid->insertMeta(key, openvdb::DoubleMetadata(value)); };
         put("alcove:center_x", stack.frame.center.x);
         put("alcove:center_y", stack.frame.center.y);
         put("alcove:center_z", stack.frame.center.z);
         put("alcove:diagonal", stack.frame.diagonal);
-        put("alcove:levels", static_cast<double>(stack.levels.size()));
+        put("alcove:levels", static_cast<double>(stack.levels.size() + stack.partial.size()));
         put("alcove:voxel", level.voxel);
         put("alcove:outer_band", level.outer_band);
         put("alcove:inner_band", level.inner_band);
         if (stack.lattice)
             put(lattice_name, stack.scene_voxel());
+        if (is_partial)
+            put(partial_name, 1.0);
         grid->insertMeta("alcove:sign", openvdb::StringMetadata(stack.sign == Sign::sheet ? "sheet" : "solid"));
         grid->insertMeta(checksum_name, openvdb::Int64Metadata(checksum_of({grid})));
         grids.push_back(grid);
-    }
+    };
+    for (std::size_t i = 0; i < stack.levels.size(); ++i)
+        add(stack.levels[i], stack.scene_voxel(i), level_name(i), false);
+    for (std::size_t i = 0; i < stack.partial.size(); ++i)
+        add(stack.partial[i], stack.partial[i].voxel * stack.frame.diagonal,
+            fmt::format("surface_fine_{}", stack.partial.size() - i), true);
     AtomicFile out(file);
     try {
         io::File archive(out.temporary().string());

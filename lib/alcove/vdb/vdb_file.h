@@ -13,8 +13,9 @@
 
 namespace alcove {
 
-/// Writes the levels as float grids `surface`, `surface_2`, ... of class level set, Blosc-compressed, with
-/// `creator` and `alcove:*` metadata, to a temporary file that is renamed to `file`. Values and transforms are in
+/// Writes the levels as float grids `surface`, `surface_2`, ... and the partial levels as `surface_fine_1` (half the
+/// voxel of `surface`), `surface_fine_2`, of class level set, Blosc-compressed, with `creator` and `alcove:*` metadata,
+/// to a temporary file that is renamed to `file`. Values and transforms are in
 /// scene units. `alcove:checksum` is the CRC-32 of everything that read_grids() uses, independent of the compression.
 /// \throw IoError if the file cannot be written.
 void write_grids(const GridStack& stack, const std::filesystem::path& file);

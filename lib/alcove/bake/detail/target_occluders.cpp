@@ -56,6 +56,8 @@ TargetOccluders::BuiltField TargetOccluders::build(float largest_voxel) {
     if (!target_.grid) {
         VoxelizeOptions options = target_.voxelizing;
         options.grid.largest_voxel = largest_voxel;
+        // The planner chooses larger voxels where they suffice.
+        options.grid.refine = largest_voxel <= GridOptions{}.largest_voxel;
         if (progress_)
             options.progress = [&](double done) { progress_("voxelizing", done); };
         own = voxelize(target_.mesh, target_.triangles, options);

@@ -1,8 +1,8 @@
 /// Union and difference of solids with optionally rounded seams. Cost: one map() of every part.
 ///
 /// The results are bounds, with and without rounding: they have Lipschitz constant 1 and never exceed the distance
-/// to the surface that they describe. This requires that every part is correct up to the blend width outside, and,
-/// in a difference, also inside.
+/// to the surface that they describe. This requires that the distances of every part are correct within the blend
+/// width outside its surface and, for a difference, inside it too.
 #pragma once
 
 #include "alcove/field/primitives.h"

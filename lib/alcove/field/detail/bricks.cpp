@@ -15,6 +15,7 @@ using openvdb::Coord;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr int cells = BrickView::cells, samples = BrickView::samples;
 static_assert(Leaf::DIM == cells);
+constexpr float unknown = 1e18f; // finite, so that interpolation between two is
 
 /// Fills the samples of a brick from its leaf and the first layers of seven neighbours.
 void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& origin, float value_scale, float* brick) {
@@ -34,8 +35,9 @@ void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& orig
 
 }
 
-Bricks::Bricks(const LevelSet& level, float value_scale)
-    : voxel_(static_cast<float>(level.voxel)), usable_((level.outer_band - 1.0f) * voxel_), origin_(level.origin) {
+Bricks::Bricks(const LevelSet& level, float value_scale, Extent extent)
+    : voxel_(static_cast<float>(level.voxel)), usable_((level.outer_band - 1.0f) * voxel_),
+      usable_inside_((level.inner_band - 1.0f) * voxel_), origin_(level.origin) {
     const openvdb::FloatGrid& grid = *level.grid->grid;
     std::vector<const Leaf*> leaves;
     grid.tree().getNodes(leaves);
@@ -69,10 +71,19 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
                    static_cast<std::size_t>(size_[2]) +
                static_cast<std::size_t>(b.z() / cells);
     };
+    const auto beside = [&](const Leaf* leaf, int side, int step) {
+        return leaf->origin().offsetBy(step * (side >> 2), step * (side >> 1 & 1), step * (side & 1));
+    };
     for (const Leaf* leaf : leaves)
-        for (int side = 0; side < 8; ++side)
-            index_[slot(leaf->origin().offsetBy(-cells * (side >> 2), -cells * (side >> 1 & 1), -cells * (side & 1)))] =
-                1;
+        if (extent == Extent::whole) {
+            for (int side = 0; side < 8; ++side)
+                index_[slot(beside(leaf, side, -cells))] = 1;
+        } else {
+            bool complete = true;
+            for (int side = 1; side < 8 && complete; ++side)
+                complete = grid.tree().probeConstLeaf(beside(leaf, side, cells)) != nullptr;
+            index_[slot(leaf->origin())] = complete;
+        }
 
     // Bricks 0 and 1 represent all of the outside and all of the inside.
     std::vector<Coord> origins(2);
@@ -88,12 +99,12 @@ Bricks::Bricks(const LevelSet& level, float value_scale)
                     if (origins.size() > std::numeric_limits<std::int32_t>::max() / BrickView::stride - 1)
                         throw LimitError("the grid needs more than 2.9 million bricks of 8³ voxels: use a "
                                          "coarser --voxel");
-                } else {
+                } else if (extent == Extent::whole) {
                     index_[i] = accessor.getValue(origin) < 0.0f ? BrickView::stride : 0;
                 }
             }
     bricks_.resize(origins.size() * BrickView::stride);
-    const float outside = grid.background() * value_scale;
+    const float outside = extent == Extent::whole ? grid.background() * value_scale : unknown;
     std::fill_n(bricks_.begin(), BrickView::stride, outside);
     std::fill_n(bricks_.begin() + BrickView::stride, BrickView::stride, -outside);
     parallel_for(origins.size() - 2, 64, [&](std::size_t begin, std::size_t end) {

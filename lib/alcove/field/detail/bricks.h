@@ -30,9 +30,12 @@ struct BrickView {
 /// The bricks of one level. Const use is thread-safe; copies share nothing.
 class Bricks {
   public:
+    /// `partial` levels have values only where their leaves are; elsewhere, distances are huge.
+    enum class Extent { whole, partial };
+
     /// Reads the OpenVDB grid of a level; `value_scale` converts its values to unit space.
     /// \throw LimitError if the index or the bricks exceed 32-bit offsets.
-    Bricks(const LevelSet& level, float value_scale);
+    Bricks(const LevelSet& level, float value_scale, Extent extent = Extent::whole);
 
     BrickView view() const;
     float voxel() const { return voxel_; }
@@ -40,6 +43,8 @@ class Bricks {
     const Vec3& origin() const { return origin_; }
     /// Distances below this are correct; above, interpolation includes saturated values beyond the band.
     float usable() const { return usable_; }
+    /// The same for the negative distances behind the surface.
+    float usable_inside() const { return usable_inside_; }
     /// A bounding box of the surface, wider by at most the band and a brick.
     const Cuboid& bounds() const { return bounds_; }
     std::size_t bytes() const { return (index_.size() + bricks_.size()) * sizeof(float); }
@@ -51,7 +56,7 @@ class Bricks {
     std::vector<std::int32_t> index_;
     std::vector<float> bricks_;
     std::int32_t size_[3] = {0, 0, 0};
-    float voxel_ = 0.0f, usable_ = 0.0f;
+    float voxel_ = 0.0f, usable_ = 0.0f, usable_inside_ = 0.0f;
     Vec3 origin_{0.0f};
     Cuboid bounds_;
     Vec3 offset_{0.0f}; // sample coordinate = p / voxel + offset

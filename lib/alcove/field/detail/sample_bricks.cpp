@@ -30,7 +30,7 @@ HWY_INLINE void gather_pair(D d, const float* values, I at, V& a, V& b) {
     a = hn::GatherIndex(d, values, at);
     b = hn::GatherIndex(d, values + 1, at);
 #else
-    // One 64-bit load for both halves the number of gathers.
+    // Loading both values with one 64-bit gather halves the number of gathers.
     const hn::Repartition<std::int64_t, D> wide;
     const hn::Half<hn::RebindToSigned<D>> half;
     const auto* pairs = reinterpret_cast<const std::int64_t*>(values);

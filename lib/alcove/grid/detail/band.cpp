@@ -2,6 +2,7 @@
 
 #include "alcove/base/parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -46,14 +47,18 @@ int size_around(const TriangleTree& tree, int stride, float reach) {
 
 }
 
+Nodes Band::all_nodes() const {
+    Nodes nodes;
+    for (std::uint32_t node = tree_->top(); node < tree_->nodes.size(); ++node)
+        nodes.push_back(node);
+    return nodes;
+}
+
 std::vector<BandBlock> Band::blocks(int stride) const {
     const float reach = width_.outer * static_cast<float>(stride);
     const int size = size_around(*tree_, stride, reach), task = std::min(size, 8 * brick_size);
     std::vector<BandBlock> tasks;
-    Nodes whole;
-    for (std::uint32_t node = tree_->top(); node < tree_->nodes.size(); ++node)
-        whole.push_back(node);
-    descend(*tree_, {Index3(0), std::move(whole)}, {Index3(0), size, stride}, task, reach, tasks);
+    descend(*tree_, {Index3(0), all_nodes()}, {Index3(0), size, stride}, task, reach, tasks);
     std::vector<std::vector<BandBlock>> found(tasks.size());
     parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -83,6 +88,7 @@ BandBrick Band::brick(const BandBlock& block, int stride, std::span<const float,
     nearest_triangles(*tree_, block.nodes, at, {inside.data(), width_.outer * units, width_.inner * units}, nearest);
 
     BandBrick brick;
+    std::copy_n(nearest.triangle, brick_volume, brick.triangle.begin());
     for (std::size_t row = 0; row < brick_rows; ++row) {
         const std::size_t first = row * brick_size;
         float distances[brick_size];

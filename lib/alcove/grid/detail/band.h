@@ -6,6 +6,7 @@
 #include "alcove/grid/grid_stack.h"
 #include "alcove/nearest/nearest.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,6 +35,8 @@ struct BandBrick {
     float values[brick_volume];
     std::uint64_t active[brick_size] = {}; ///< one word per x-slice, one bit per voxel in the band
     std::size_t count = 0;                 ///< number of voxels in the band
+    /// The nearest triangle, where the distance was not known before and is in the band.
+    std::array<std::uint32_t, brick_volume> triangle;
 };
 
 /// Distances are exact and bricks are independent of each other, so bricks can be computed in parallel and levels of
@@ -50,6 +53,8 @@ class Band {
     BandWidth width() const { return width_; }
     Sign sign() const { return columns_ ? Sign::solid : Sign::sheet; }
 
+    /// The nodes of the whole tree, for bricks that blocks() does not return.
+    Nodes all_nodes() const;
     /// The bricks of a level whose voxels are `stride` apart in the tree's units, in no particular order.
     std::vector<BandBlock> blocks(int stride) const;
 

@@ -53,20 +53,31 @@ std::array<float, brick_volume> known_distances(const LevelSet* finer, const Ind
     return known;
 }
 
-}
+/// Where the leaves of a level are and how their values are stored.
+struct Storage {
+    int stride;
+    double value_scale;
+    Index3 first{0};                 ///< index of the band's origin, in voxels of stride 1
+    const LevelSet* finer = nullptr; ///< whose distances are reused
+    bool keeps_empty = false;        ///< bricks without a voxel in the band, too
+};
 
-LevelSet level_set(const Band& band, int stride, double value_scale, const Index3& first, const LevelSet* finer) {
-    const auto scaled = [&](float voxels) { return static_cast<float>(voxels * value_scale); };
-    const float outside = scaled(band.width().outer), inside = scaled(-band.width().inner);
-    const std::vector<BandBlock> blocks = band.blocks(stride);
+LevelSet store(const Band& band, std::span<const BandBlock> blocks, const Storage& to,
+               std::vector<NearestOfBrick>* nearest) {
+    const auto scaled = [&](float voxels) { return static_cast<float>(voxels * to.value_scale); };
+    const float outside = scaled(band.width().outer);
     std::vector<std::unique_ptr<Leaf>> leaves(blocks.size());
     std::vector<std::size_t> counts(blocks.size());
+    if (nearest)
+        nearest->resize(blocks.size());
     parallel_for(blocks.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            const Index3 low = blocks[b].low + first / stride;
-            const BandBrick brick = band.brick(blocks[b], stride, known_distances(finer, low, value_scale));
+            const Index3 low = blocks[b].low + to.first / to.stride;
+            const BandBrick brick = band.brick(blocks[b], to.stride, known_distances(to.finer, low, to.value_scale));
             counts[b] = brick.count;
-            if (brick.count == 0)
+            if (nearest)
+                (*nearest)[b] = {low, brick.triangle, std::to_array(brick.values)};
+            if (brick.count == 0 && !to.keeps_empty)
                 continue;
             auto leaf = std::make_unique<Leaf>(coord(low), outside);
             std::transform(brick.values, brick.values + brick_volume, leaf->buffer().data(), scaled);
@@ -82,8 +93,8 @@ LevelSet level_set(const Band& band, int stride, double value_scale, const Index
     for (auto& leaf : leaves)
         if (leaf)
             tree->addLeaf(leaf.release());
-    if (band.sign() == Sign::solid)
-        openvdb::tools::signedFloodFillWithValues(*tree, outside, inside, true, 1, 1);
+    if (band.sign() == Sign::solid && !to.keeps_empty)
+        openvdb::tools::signedFloodFillWithValues(*tree, outside, scaled(-band.width().inner), true, 1, 1);
     auto grid = openvdb::FloatGrid::create(tree);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     LevelSet set;
@@ -91,6 +102,17 @@ LevelSet level_set(const Band& band, int stride, double value_scale, const Index
     set.bytes = grid->memUsage();
     set.grid = std::make_shared<VdbGrid>(VdbGrid{grid});
     return set;
+}
+
+}
+
+LevelSet level_set(const Band& band, int stride, double value_scale, const Index3& first, const LevelSet* finer,
+                   std::vector<NearestOfBrick>* nearest) {
+    return store(band, band.blocks(stride), {stride, value_scale, first, finer}, nearest);
+}
+
+LevelSet partial_level_set(const Band& band, std::span<const BandBlock> bricks, int stride, double value_scale) {
+    return store(band, bricks, {.stride = stride, .value_scale = value_scale, .keeps_empty = true}, nullptr);
 }
 
 }

@@ -3,12 +3,27 @@
 
 #include "alcove/grid/detail/band.h"
 
+#include <array>
+#include <span>
+#include <vector>
+
 namespace alcove {
 
-/// The level of the given stride, with values multiplied by `value_scale` and the inside of solids filled. Its indices
-/// are those of the band plus `first` / stride, a multiple of brick_size. Reuses the distances of `finer`, the level of
-/// half the stride, if given. Sets only grid, active_voxels and bytes.
+/// The nearest triangles of the voxels of a brick, z fastest.
+struct NearestOfBrick {
+    Index3 low;
+    std::array<std::uint32_t, brick_volume> triangle; ///< set in the band
+    std::array<float, brick_volume> distance;         ///< signed, voxels; plus or minus the band width outside the band
+};
+
+/// The level of the given stride, with values multiplied by `value_scale` and the inside of solids filled. Its index is
+/// that of the band plus `first` / stride, a multiple of brick_size. Reuses the distances of `finer`, the level of half
+/// the stride, if given. Sets only grid, active_voxels and bytes. Adds the nearest triangles of its bricks to `nearest`,
+/// if given, where no finer level had the distance.
 LevelSet level_set(const Band& band, int stride, double value_scale, const Index3& first = Index3(0),
-                   const LevelSet* finer = nullptr);
+                   const LevelSet* finer = nullptr, std::vector<NearestOfBrick>* nearest = nullptr);
+
+/// A level of some bricks, with a leaf for each, even where no voxel is in the band. Elsewhere, values are unknown.
+LevelSet partial_level_set(const Band& band, std::span<const BandBlock> bricks, int stride, double value_scale);
 
 }

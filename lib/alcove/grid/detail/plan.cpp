@@ -141,6 +141,7 @@ LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, con
     plan.cluster = estimate.clusters(plan.voxel);
     plan.triangles = estimate.voxelized(plan.voxel);
     plan.bytes = estimate.bytes(plan.voxel);
+    plan.spare_bytes = std::max(limit_of(options) - plan.bytes, 0.0);
 
     const float reach = std::min(options.radius, 1.0f);
     float usable = (plan.outer_band - 1.0f) * plan.voxel;

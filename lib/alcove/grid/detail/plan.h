@@ -11,9 +11,10 @@ struct LevelPlan {
     float voxel = 0.0f; ///< finest, unit space
     int levels = 1;
     float outer_band = 0.0f, inner_band = 0.0f;
-    bool cluster = false;   ///< whether GridOptions::cluster is set and there are enough triangles for it
-    double triangles = 0.0; ///< see triangles_voxelized()
-    double bytes = 0.0;     ///< estimated peak while building
+    bool cluster = false;     ///< whether GridOptions::cluster is set and there are enough triangles for it
+    double triangles = 0.0;   ///< see triangles_voxelized()
+    double bytes = 0.0;       ///< estimated peak while building
+    double spare_bytes = 0.0; ///< left of the memory limit
 };
 
 /// Total size of a set of triangles, in the unit space of the mesh's own box.

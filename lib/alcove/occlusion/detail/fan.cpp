@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t largest_leaf = 4;
 
-/// A linear function of directions that is at least 0 somewhere in a box.
+/// A half-space, dot(normal, x) >= 0; meets() tells whether any point of a box lies in it.
 struct HalfSpace {
     Vec3d normal, size;
 

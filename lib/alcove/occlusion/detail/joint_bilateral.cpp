@@ -28,7 +28,7 @@ bool is_same(const Surfel& a, const Surfel& b) {
 }
 
 /// The weight of a surfel's own rays against the filtered value (James and Stein 1961): 0 if noise explains the
-/// variance among the neighbours. Twice the noise, because that variance is itself an estimate.
+/// variance among the neighbours. The threshold is twice the noise, because that variance is itself an estimate.
 float own_weight(float variance, float noise) {
     return variance > 2.0f * noise ? 1.0f - 2.0f * noise / variance : 0.0f;
 }

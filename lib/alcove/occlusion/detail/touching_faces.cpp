@@ -135,7 +135,7 @@ bool faces_against(const NearFace& face, const NearFace& own) {
     return glm::dot(face.normal, own.normal) < 0.0 && glm::dot(face.corners[0], own.normal) >= -rounding;
 }
 
-/// Whether the face continues the surface across a split vertex, such as at the seam of an unwrapped texture.
+/// Whether the face continues the surface across a split vertex, such as at a UV seam.
 bool is_continuation(const NearFace& face, const Vec3d& normal, double offset) {
     constexpr double cosine = 0.7; // 45°
     return corner_at_surfel(face, offset) < 3 && glm::dot(face.normal, normal) > cosine;

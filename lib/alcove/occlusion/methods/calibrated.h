@@ -14,8 +14,8 @@ namespace alcove {
 ///     ao = clamp(1 + N(x, c) − N(0, c)),   N a RingNetwork, c the radius in voxels and whether the field is two-sided
 ///
 /// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. What
-/// they are, and the error on meshes it was not trained on, is in docs/calibrated.md. All x are 0 over a plane, where
-/// ao is 1 by construction, as far as the bands of the field reach, and independent of scale. Probes do not resolve
+/// they are, and the error on meshes it was not trained on, is in docs/calibrated.md. All x are independent of
+/// scale. As far as the bands of the field reach, they are 0 over a plane, so ao is 1 there. Probes do not resolve
 /// contacts: surfels that touch other faces get rays on the mesh, as in Exact, or in the field, as in Traced. Source:
 /// probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13, 38 or 63 map() calls per surfel,
 /// and 0.05, 0.1 or 0.2 µs.

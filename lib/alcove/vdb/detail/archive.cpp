@@ -82,8 +82,8 @@ std::vector<openvdb::GridBase::Ptr> read_bases(const std::filesystem::path& file
     }
 }
 
-/// Refuses a grid of far more tiles at its root than the inside of any level set has: OpenVDB takes a time that is
-/// quadratic in them.
+/// Refuses a grid whose root has far more tiles than the inside of any level set needs: OpenVDB's running time is
+/// quadratic in their number.
 void check_root(FloatGrid& grid, const std::filesystem::path& file) {
     constexpr openvdb::Index most = 1000;
     auto& root = grid.tree().root();

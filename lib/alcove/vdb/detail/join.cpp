@@ -158,7 +158,7 @@ FloatGrid::Ptr voxelized(const FloatGrid::Ptr& grid, const openvdb::math::Transf
     return result;
 }
 
-/// How a grid comes to the lattice.
+/// How a grid is transferred to the lattice.
 struct Move {
     FloatGrid::Ptr grid;
     bool voxelize; ///< again from its surface, not interpolate its values

@@ -1,0 +1,30 @@
+/// Levels that are finer than a stack's finest and exist only where it does not resolve the surface.
+#pragma once
+
+#include "alcove/grid/detail/band.h"
+#include "alcove/grid/detail/unresolved.h"
+
+#include <vector>
+
+namespace alcove {
+
+/// What the partial levels are built from, in voxels of the finest whole level.
+struct PartialLevelsSource {
+    Surface surface; ///< all triangles; positions are none below 0
+    Sign sign;
+    BandWidth width;        ///< of every level
+    double voxel;           ///< unit space
+    Vec3d origin;           ///< of index (0, 0, 0) on all levels, unit space
+    double value_scale;     ///< value of a distance of one voxel
+    std::size_t max_bricks; ///< of all partial levels
+};
+
+/// Bytes of a brick of a partial level, with that of its field.
+inline constexpr double bytes_per_partial_brick = 6000.0;
+
+/// At most two levels, from finest to coarsest: of half the voxel within 1.5 voxels of all unresolved voxels, and of a
+/// quarter of it around those of walls and gaps thinner than a voxel. Leaves out what exceeds `max_bricks`, the finest
+/// level first. Cost: 20 ns per triangle, and that of Band::brick() for each brick.
+std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const PartialLevelsSource& source);
+
+}

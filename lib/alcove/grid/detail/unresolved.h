@@ -1,0 +1,25 @@
+/// Finds where a level does not resolve the surface.
+#pragma once
+
+#include "alcove/grid/detail/clustered.h"
+#include "alcove/grid/detail/level_set.h"
+
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// Voxels beside a wall or a gap that is thinner than two voxels.
+struct UnresolvedVoxels {
+    std::vector<Index3> below_two; ///< all of them
+    std::vector<Index3> below_one; ///< those beside one that is thinner than a voxel
+    double share = 0.0;            ///< of the voxels next to the surface
+};
+
+/// Compares the nearest triangles of neighbouring voxels: where they face in opposite directions, the neighbours are on
+/// both sides of the middle of a wall or gap, and the distance between the triangles is its thickness. Walls thinner
+/// than a quarter of a voxel do not count: no partial level resolves them. `nearest` are the bricks of a level of stride 1,
+/// with triangles of `surface`. Cost: about 10 ns per voxel next to the surface.
+UnresolvedVoxels find_unresolved(std::span<const NearestOfBrick> nearest, const Surface& surface);
+
+}
