@@ -50,8 +50,8 @@ class Finder {
             for (int axis = 0; axis < 3; ++axis) {
                 const bool last = local[axis] + 1 == brick_size;
                 const NearestOfBrick* other = bricks[last ? static_cast<std::size_t>(axis) + 1 : 0];
-                const auto next_voxel =
-                    static_cast<std::size_t>(i + steps[static_cast<std::size_t>(axis)] * (last ? 1 - brick_size : 1));
+                const int j = i + steps[static_cast<std::size_t>(axis)] * (last ? 1 - brick_size : 1);
+                const auto next_voxel = static_cast<std::size_t>(j);
                 if (!other || std::fabs(other->distance[next_voxel]) > farthest)
                     continue;
                 Index3 next = of.low + local;
