@@ -263,7 +263,8 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
     via->excludes(app.get_option("--method"));
     app.add_flag_callback(
         "--no-pilot", [&bake] { bake.pilot = false; },
-        "Shoot no reference rays: the error of the bake is not measured, and calibrated is not fitted to the mesh");
+        "Shoot no reference rays: the error of the bake is not measured, and the method calibrated is not fitted to "
+        "the mesh");
 }
 
 /// The attributes, and the vertices to bake.
@@ -271,7 +272,8 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
     app.add_option_function<std::string>(
            "--attributes", [&bake](const std::string& names) { bake.attributes = parse_attributes(names); },
-           "What to bake, separated by commas: ao, ao_short, ao_long (multiscale), convexity, bent_normal, thickness")
+           "What to bake, separated by commas: ao, convexity, bent_normal, thickness; with --method multiscale also "
+           "ao_short, ao_long")
         ->check(parsable(parse_attributes))
         ->type_name("NAMES")
         ->default_str("ao");

@@ -128,12 +128,13 @@ void add_voxelize(CLI::App& program) {
     app->add_option("input", verb->input, "Mesh (ply, obj, off, stl)")->required();
     app->add_option("-o,--output", verb->output, "Grid to write (vdb)")->required();
     add_radius_option(*app, verb->radius,
-                      "Maximum distance to store; levels with doubled voxels are added until they reach it");
+                      "Maximum distance to store; levels are added, each with twice the voxel size of the one before, "
+                      "until they reach it");
     add_grid_options(*app, verb->voxel, verb->voxelizing.sign);
     app->add_option(
            "--lattice", verb->lattice,
-           "Put voxel centres where those of other grids are, so that grids of several meshes can be combined: "
-           "at whole multiples of LEN from the origin, or on the finest voxels of a .vdb")
+           "Align the voxels with those of other grids, so that the grids can be combined. LEN: put voxel centres at "
+           "whole multiples of LEN from the origin; FILE: on the centres of the finest voxels of that .vdb")
         ->check(parsable([](const std::string& text) {
             if (!is_grid(text))
                 lattice_length(text);

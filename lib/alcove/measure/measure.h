@@ -63,8 +63,8 @@ struct MeasuredGrid {
     std::size_t peak_rss_bytes;       ///< peak memory of the process during that time
 };
 
-/// Builds the grid as a bake does, with clustered vertices on dense surfaces. Radius and voxel in unit space; a voxel
-/// of 0 is chosen automatically. \throw as voxelize().
+/// Builds the grid as a bake does, with clustered vertices on dense surfaces. Radius and voxel in unit space; if
+/// `voxel` is 0, its size is chosen automatically. \throw as voxelize().
 MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, const Progress& progress = {});
 
 struct Measurement {

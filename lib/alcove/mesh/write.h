@@ -18,7 +18,7 @@ enum class ColorEncoding {
 /// One opaque grey per value in [0, 1], rounded to the nearest byte; other values are clamped.
 std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding = ColorEncoding::srgb);
 
-/// Whether write_mesh() knows the extension of `file`. Call it before a long computation to find out early.
+/// Whether write_mesh() knows the extension of `file`. Call this before a long computation, to find out early.
 /// \throw IoError if nothing can be written there, InputError if it is a pipe, a device or a dangling symbolic link.
 bool can_write_mesh(const std::filesystem::path& file);
 

@@ -79,7 +79,8 @@ constexpr ChannelSet channels_of() {
         return Channel::ao;
 }
 
-/// How far above the surface probes and rays start: the offset of rays, and in a grid a tenth of a voxel at least.
+/// How far above the surface probes and rays start: the offset of rays or, in a grid, a tenth of a
+/// voxel if that is larger.
 template <Field F>
 float start_height(const F& field, float radius) {
     return std::max(0.1f * resolution(field), ray_offset(radius));

@@ -1,4 +1,4 @@
-/// Chooses the fastest method that meets an error.
+/// Chooses the fastest method that meets an error target.
 #pragma once
 
 #include "alcove/bake/bake.h"

@@ -35,7 +35,8 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, const
     constexpr double certain = 2.0;   // ratio to the limit, in either direction
     if (!deadline.is_set())
         return;
-    settings.labels.reset(); // a fit takes longer than a trial, but not longer for more surfels
+    // No fit in the trial: it takes longer than the trial, and its time does not grow with the number of surfels.
+    settings.labels.reset();
     double samples_left_out = 1.0;
     if (choice.samples > max_samples) {
         settings.parameters.emplace_back(parameter_of(choice.method->samples_are), max_samples);

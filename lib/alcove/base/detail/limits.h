@@ -3,8 +3,8 @@
 
 namespace alcove {
 
-/// Bytes that level sets and images may take, with the memory for building them. By default half of the memory of the
-/// machine, or of the control group (cgroup v2) if that has less.
+/// Bytes that level sets and images may take, including the memory needed to build them. By default half of the
+/// memory of the machine, or of the control group (cgroup v2) if that has less.
 double memory_limit();
 void limit_memory(double bytes);
 

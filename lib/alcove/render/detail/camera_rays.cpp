@@ -19,8 +19,8 @@ constexpr float relaxation = 1.4f;
 /// a surface.
 constexpr float max_slope = 1.15f;
 
-/// If the slope is smaller, or if the gradients at a hit and a little in front of it differ by more than this cosine,
-/// the hit is on a crease or inside a jump.
+/// If the slope is below min_slope, or if the cosine between the gradients at a hit and a little in front of it is below
+/// min_agreement, the hit is on a crease or inside a jump.
 constexpr float min_slope = 0.8f, min_agreement = 0.97f;
 
 /// Maximum distance in voxels between the zero inside a jump and the face in front of it.
