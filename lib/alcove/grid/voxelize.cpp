@@ -149,7 +149,8 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
                                                         .voxel = placing.voxel,
                                                         .origin = placing.origin,
                                                         .value_scale = value_scale,
-                                                        .max_bricks = bricks_for_partial_levels(nearest.size(), plan)});
+                                                        .max_bricks = bricks_for_partial_levels(nearest.size(), plan),
+                                                        .max_bytes = plan.spare_bytes});
     }
     done(1.0);
     return stack;

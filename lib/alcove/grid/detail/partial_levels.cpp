@@ -2,9 +2,9 @@
 
 #include "alcove/base/detail/duplicate_faces.h"
 #include "alcove/base/parallel.h"
+#include "alcove/grid/detail/plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -61,7 +61,7 @@ bool are_compact(const Bricks& bricks) {
     return slots <= most_slots;
 }
 
-/// A coarse picture of where bricks are: cubes of `side` voxels of the finest whole level.
+/// Marks the cubes of `side_` voxels of the finest whole level, or the columns of such cubes along z, that boxes touch.
 class Cells {
   public:
     Cells(const Index3& size, bool flat) : flat_(flat) {
@@ -78,27 +78,27 @@ class Cells {
 
     /// Marks all cells that a box touches.
     void mark(const Vec3d& low, const Vec3d& high) {
-        visit(low, high, [&](std::uint8_t& cell) {
-            cell = 1;
+        any_of(low, high, [&](std::size_t cell) {
+            marked_[cell] = 1;
             return false;
         });
     }
     bool touches(const Vec3d& low, const Vec3d& high) const {
-        return const_cast<Cells*>(this)->visit(low, high, [](const std::uint8_t& cell) { return cell != 0; });
+        return any_of(low, high, [&](std::size_t cell) { return marked_[cell] != 0; });
     }
 
   private:
-    template <class Visit>
-    bool visit(const Vec3d& low, const Vec3d& high, const Visit& stop_at) {
+    template <class Test>
+    bool any_of(const Vec3d& low, const Vec3d& high, const Test& test) const {
         const Index3 first = glm::clamp(Index3(glm::floor(low / double(side_))), Index3(0), size_ - 1),
                      last = glm::clamp(Index3(glm::floor(high / double(side_))), Index3(0), size_ - 1);
         for (int x = first.x; x <= last.x; ++x)
             for (int y = first.y; y <= last.y; ++y)
                 for (int z = flat_ ? 0 : first.z; z <= (flat_ ? 0 : last.z); ++z)
-                    if (stop_at(marked_[(static_cast<std::size_t>(x) * static_cast<std::size_t>(size_.y) +
-                                         static_cast<std::size_t>(y)) *
-                                            (flat_ ? 1 : static_cast<std::size_t>(size_.z)) +
-                                        static_cast<std::size_t>(z)]))
+                    if (test((static_cast<std::size_t>(x) * static_cast<std::size_t>(size_.y) +
+                              static_cast<std::size_t>(y)) *
+                                 (flat_ ? 1 : static_cast<std::size_t>(size_.z)) +
+                             static_cast<std::size_t>(z)))
                         return true;
         return false;
     }
@@ -118,6 +118,21 @@ std::vector<Triangle> touching(const Surface& surface, const Cells& cells) {
             found.push_back(t);
     }
     return found;
+}
+
+/// For the search of nearest triangles, the positions, and the crossings of columns that are 1 / `finest` voxels apart.
+double bytes_to_build(const Surface& surface, std::span<const Triangle> nearest, std::span<const Triangle> crossed,
+                      int finest) {
+    constexpr double bytes_per_crossing = 60.0;
+    double columns = 0.0;
+    for (const auto& [a, b, c] : crossed)
+        columns +=
+            0.5 *
+            std::fabs(
+                glm::cross(surface.positions[b] - surface.positions[a], surface.positions[c] - surface.positions[a]).z);
+    return bytes_per_triangle * static_cast<double>(nearest.size()) +
+           static_cast<double>(sizeof(Vec3d) * surface.positions.size()) +
+           bytes_per_crossing * columns * finest * finest;
 }
 
 /// The blocks of `bricks`, with the tree nodes near them.
@@ -169,6 +184,10 @@ std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const P
     }
     const std::vector<Triangle> triangles = touching(source.surface, near);
     const int finest = finer / 2;
+    const std::vector<Triangle> crossed =
+        source.sign == Sign::solid ? touching(source.surface, columns_near) : std::vector<Triangle>();
+    if (bytes_to_build(source.surface, triangles, crossed, finest) > source.max_bytes)
+        return {};
     HugeVector<Vec3d> positions(source.surface.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
@@ -178,7 +197,7 @@ std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const P
     std::optional<Pseudonormals> normals;
     std::vector<Triangle> single;
     if (source.sign == Sign::solid)
-        columns.emplace(positions, touching(source.surface, columns_near));
+        columns.emplace(positions, crossed);
     else
         single = without_duplicate_faces<Vec3d>(positions, triangles);
     const std::vector<Triangle>& nearest = source.sign == Sign::solid ? triangles : single;

@@ -17,6 +17,7 @@ struct PartialLevelsSource {
     Vec3d origin;           ///< of index (0, 0, 0) on all levels, unit space
     double value_scale;     ///< value of a distance of one voxel
     std::size_t max_bricks; ///< of all partial levels
+    double max_bytes;       ///< for building them
 };
 
 /// Bytes of a brick of a partial level, with that of its field.
@@ -24,7 +25,7 @@ inline constexpr double bytes_per_partial_brick = 6000.0;
 
 /// At most two levels, from finest to coarsest: of half the voxel within 1.5 voxels of all unresolved voxels, and of a
 /// quarter of it around those of walls and gaps thinner than a voxel. Leaves out what exceeds `max_bricks`, the finest
-/// level first. Cost: 20 ns per triangle, and that of Band::brick() for each brick.
+/// level first, and all if building them takes more than `max_bytes`. Cost: 20 ns per triangle, and that of Band::brick() for each brick.
 std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const PartialLevelsSource& source);
 
 }

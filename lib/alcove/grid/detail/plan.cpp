@@ -20,10 +20,8 @@ namespace {
 constexpr float min_outer_band = 3.0f, min_inner_band = 2.0f; // voxels
 
 // Measured peaks of resident memory. Per voxel of the finest band: the grids and the bricks of their fields. Per
-// voxelized triangle: the search for nearest triangles (130 for solids, 230 for sheets). Per triangle that is
-// clustered: 90 where edges are checked too.
+// triangle that is clustered: 90 where edges are checked too.
 constexpr double bytes_per_band_voxel = 60.0;
-constexpr double bytes_per_triangle = 240.0;
 constexpr double bytes_per_clustered_triangle = 100.0;
 constexpr double bytes_per_voxel_of_length = 75.0; // fragments of long triangles
 // Measured: triangles that remain per voxel² of area after clustering. Clustering pays where it halves the count.

@@ -3,9 +3,10 @@
 #include "alcove/base/detail/closest_point.h"
 #include "alcove/base/parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <unordered_map>
 
 namespace alcove {
@@ -88,7 +89,7 @@ class Finder {
         return p - closest_on_triangle(surface_.positions[a], surface_.positions[b], surface_.positions[c], p).offset;
     }
 
-    /// Of the wall or gap between the nearest triangles of two neighbours; infinite if there is none.
+    /// The thickness of the wall or gap between the nearest triangles of two neighbours; infinite if there is none.
     double thickness_between(const Index3& p, std::uint32_t a, const Index3& q, std::uint32_t b) const {
         constexpr double none = std::numeric_limits<double>::infinity();
         constexpr double opposite2 = 0.5; // squared cosine: within 45° of opposite directions

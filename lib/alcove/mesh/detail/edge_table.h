@@ -69,7 +69,7 @@ class DisjointSets {
             i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    /// Whether both are in one set, if that is quickly seen.
+    /// A fast test: true only if both are in one set, but not always then.
     bool surely_joined(std::uint32_t a, std::uint32_t b) const { return parent_[a] == parent_[b]; }
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a);
