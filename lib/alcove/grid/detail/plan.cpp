@@ -23,7 +23,7 @@ constexpr float min_outer_band = 3.0f, min_inner_band = 2.0f; // voxels
 // triangle that is clustered: 90 where edges are checked too.
 constexpr double bytes_per_band_voxel = 60.0;
 constexpr double bytes_per_clustered_triangle = 100.0;
-constexpr double bytes_per_voxel_of_length = 75.0; // fragments of long triangles
+constexpr double bytes_per_voxel_of_length = 100.0; // fragments of long triangles
 // Measured: triangles that remain per voxel² of area after clustering. Clustering pays where it halves the count.
 constexpr double triangles_after_clustering = 12.0;
 constexpr double worth_clustering = 2.0 * triangles_after_clustering;

@@ -122,11 +122,12 @@ FragmentLeaves::FragmentLeaves(std::span<const Vec3d> positions, std::span<const
     for (const Cut& block : blocks)
         count += block.whole.size() + block.parts.size();
     order_.reserve(count);
-    for (const Cut& block : blocks) {
+    for (Cut& block : blocks) {
         order_.insert(order_.end(), block.whole.begin(), block.whole.end());
         for (const FragmentKey& part : block.parts)
             order_.push_back({part.key, static_cast<std::uint32_t>(triangles.size() + parts_.size() + part.value)});
         parts_.insert(parts_.end(), block.fragments.begin(), block.fragments.end());
+        block = {};
     }
     radix_sort(order_, 0, 3 * (std::ilogb(scale * extent) + 1));
     begin_ = group_fragments(order_, scale);
