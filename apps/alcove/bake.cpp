@@ -251,19 +251,18 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
     CLI::Option* via =
         add_choice<Via>(
             app, "--via", bake.via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}},
-            "Methods to choose from. grid: those on level sets, and exact rays only if level sets would cost "
-            "far more; auto: all; mesh: exact rays")
+            "Methods to choose from. grid: methods that use level sets, plus exact rays only where level sets "
+            "would cost far more; auto: all; mesh: exact rays")
             ->type_name("NAME")
             ->default_str("grid");
     app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error target is not met");
-    add_method_options(
-        app, verb.method,
-        "Use this method: with its defaults, or, if --error is given, with as many rays or samples as that "
-        "error needs. One of: ");
+    add_method_options(app, verb.method,
+                       "Use this method, with its default settings or, if --error is given, with as many rays or "
+                       "samples as it takes to reach that error. One of: ");
     via->excludes(app.get_option("--method"));
     app.add_flag_callback(
         "--no-pilot", [&bake] { bake.pilot = false; },
-        "Shoot no reference rays: the error of the bake is not measured, and the method calibrated is not fitted to "
+        "Shoot no reference rays: the error of the bake is not measured, and the 'calibrated' method is not fitted to "
         "the mesh");
 }
 
@@ -283,14 +282,14 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
          {"file", NormalSource::file},
          {"angle", NormalSource::angle},
          {"area", NormalSource::area}},
-        "file: normals of the file; angle, area: means of face normals, weighted by the angles at the vertex or by the "
-        "areas; auto: the file's normals if it has any, else angle")
+        "file: the file's normals; angle, area: means of the face normals, weighted by face angle at the vertex or by "
+        "face area; auto: the file's normals if it has any, else angle")
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);
     app.add_option("--tessellate", verb.tessellate,
                    "Split faces first, so that ao can vary across them. LEN: split edges longer than this; auto: split "
-                   "where ao differs from the value interpolated between vertices by more than the error")
+                   "where interpolating ao between vertices would be off by more than the error target")
         ->check(parsable([](const std::string& text) {
             if (text != "auto")
                 length_without_vx(text, "auto, 0.2 (scene units) or 10% (of the diagonal)");
@@ -303,14 +302,14 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
     app.add_option("--grid", verb.grid, "Level set of the mesh (vdb), used instead of voxelizing")->type_name("FILE");
     add_grid_names(app, verb.grid_names);
     app.add_option("--adaptivity", verb.adaptivity,
-                   "How to mesh a grid, from 0 (quads only) to 1 (large faces where the surface is flat)")
+                   "How adaptively to mesh a grid, from 0 (quads only) to 1 (large faces where the surface is flat)")
         ->check(CLI::Range(0.0, 1.0).description(""))
         ->type_name("A")
         ->capture_default_str();
     app.add_option(
            "--write-grid", verb.write_grid,
-           "Also write the level sets to a .vdb. They are built from all triangles; without this option, vertices "
-           "closer than half a voxel may be clustered")
+           "Also write the level sets to a .vdb. They are then built from the full mesh; without this option, vertices "
+           "less than half a voxel apart may be merged first")
         ->type_name("FILE");
 }
 
@@ -318,7 +317,7 @@ void add_occluders(CLI::App& app, BakeVerb& verb) {
     app.add_flag("--self", verb.bake.self,
                  "Each connected part is occluded only by itself, by --occluder meshes and by the --ground plane");
     app.add_option("--occluder", verb.occluders,
-                   "Mesh that also occludes, in the same coordinates; repeat the option for more")
+                   "Another mesh that occludes, in the same coordinates as the input; repeat the option for more")
         ->option_text("MESH");
     app.add_flag("--ground", verb.bake.ground, "Add an occluding plane through the lowest vertex");
     add_triple(app, "--up", verb.up, Triple::direction, "Up direction for --ground")

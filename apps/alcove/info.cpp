@@ -142,7 +142,7 @@ void run(const Options& options) {
     const ThreadLimit limit(options.common.threads);
     const Kind kind = kind_of(options.input);
     if (kind != Kind::mesh && options.weld)
-        throw UsageError("--weld is for meshes: " + options.input + " is none");
+        throw UsageError("--weld is for meshes: " + options.input + " is not a mesh");
     const Facts facts = kind == Kind::grid    ? facts_of_grid(options.input)
                         : kind == Kind::image ? facts_of_image(options.input)
                                               : facts_of_mesh(read_welded(options.input, options.weld));

@@ -312,18 +312,18 @@ void add_measure(CLI::App& program) {
         ->capture_default_str();
     add_weld_option(*verb, options->weld);
     verb->add_option("--methods", options->methods,
-                     "NAME, or NAME:N with N samples or rays. Default: all methods, some with several N")
+                     "NAME, or NAME:N with N samples or rays. Default: all methods, some with several values of N")
         ->type_name("NAME[:N],...");
     verb->add_option("--report", options->report, "Write a page with charts and images (html)")->type_name("FILE");
-    verb->add_option("--json", options->json,
-                     "Write each result as soon as it is measured; results already in the file are not measured again")
+    verb->add_option(
+            "--json", options->json,
+            "Write each result to this file as soon as it is measured; results already in it are not measured again")
         ->type_name("FILE");
     add_run_options(*verb, options->common);
     verb->footer(
         "The reference is 1,024 exact rays per vertex, at up to 20,000 vertices; each method bakes all vertices.\n"
-        "Seconds are the CPU time of the process for one bake. A grid is built once per radius and voxel size, and "
-        "its\n"
-        "time is added to each method that uses it.\n\n"
+        "Times are the CPU seconds that the process uses for one bake. A grid is built once per radius and voxel\n"
+        "size, and its time is added to each method that uses it.\n\n"
         "Examples:\n"
         "  alcove measure scan.ply --report scan.html\n"
         "  alcove measure scan.ply part.stl --methods guided:3,exact:16,classic --json results.json\n"

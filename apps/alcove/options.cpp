@@ -135,7 +135,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
         }))
         ->option_text("SECONDS");
     add_limits(verb);
-    verb.add_flag("--quiet", options.quiet, "Print nothing but errors, and the result of --json");
+    verb.add_flag("--quiet", options.quiet, "Print only errors and the result of --json");
     verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
 }
 
@@ -169,7 +169,7 @@ void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& 
 
 void add_grid_names(CLI::App& verb, std::vector<std::string>& names) {
     verb.add_option("--grid-name", names,
-                    "Take the level set of this name from the .vdb; repeat the option for the union of several. "
+                    "Use the level set of this name from the .vdb; repeat the option to unite several. "
                     "Default: all level sets")
         ->allow_extra_args(false)
         ->option_text("NAME");
@@ -195,14 +195,14 @@ void add_method_options(CLI::App& verb, MethodRequest& request, const std::strin
     verb.add_option_function<int>("--rays", set("rays"), "Rays per point, for methods that trace rays")
         ->needs(method)
         ->type_name("N");
-    verb.add_option("--seed", request.seed, "Seed of the ray directions")->type_name("N");
+    verb.add_option("--seed", request.seed, "Random seed for the ray directions")->type_name("N");
     verb.add_option_function<std::vector<std::string>>(
             "--set",
             [&request](const std::vector<std::string>& settings) {
                 for (const std::string& setting : settings)
                     request.parameters.push_back(parse_setting(setting));
             },
-            "A parameter of the method; `alcove methods` lists them")
+            "Set a parameter of the method; `alcove methods` lists all parameters")
         ->check(parsable(parse_setting))
         ->needs(method)
         ->type_name("NAME=VALUE");

@@ -93,13 +93,13 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     CLI::Option* quality = add_choice<std::optional<Quality>>(
         verb, "--quality", request.quality,
         {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
-        "Quality of the default method (guided): draft, good or fine. It sets the number of rays");
+        "Quality of the default method (guided): draft, good or fine. Sets the number of rays");
     quality->type_name("NAME")->default_str("good");
     add_method_options(verb, request.method,
-                       "Image method (march_steps, screen_space), none, or an estimator, one of: ");
+                       "One of the image methods march_steps and screen_space; none; or one of the estimators: ");
     verb.get_option("--method")->excludes(quality);
     verb.get_option("--rays")->description(
-        "Rays per sample of a pixel, for methods that trace rays (default for traced and exact: 16)");
+        "Rays per pixel sample, for methods that trace rays (default for traced and exact: 16)");
     add_triple(verb, "--eye", request.eye, Triple::point,
                "Position of the camera; default: chosen so that everything is in view");
     add_triple(verb, "--look-at", request.look_at, Triple::point,
@@ -113,12 +113,12 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
     add_weld_option(verb, request.weld);
     add_choice<std::optional<bool>>(
         verb, "--normals", request.own_normals, {{"field", false}, {"mesh", true}},
-        "Normals. mesh: of the triangles, smoothed except at sharp edges; field: of the level set")
+        "Normals. mesh: those of the triangles, smoothed except at sharp edges; field: those of the level set")
         ->type_name("NAME")
         ->default_str("mesh");
     add_choice<std::optional<bool>>(
         verb, "--color", request.own_colors, {{"own", true}, {"none", false}},
-        "Colours. own: those of the vertices or faces of the mesh, or of the materials of an obj; none: grey")
+        "Colours. own: the vertex or face colours of the mesh, or the material colours of an obj; none: grey")
         ->type_name("NAME")
         ->default_str("own");
 }

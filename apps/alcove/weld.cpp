@@ -24,8 +24,9 @@ Length parse_weld(const std::string& text) {
 void add_weld_option(CLI::App& verb, std::optional<Length>& weld) {
     verb.add_option_function<std::string>(
             "--weld", [&weld](const std::string& text) { weld = parse_weld(text); },
-            "Join vertices within this distance, 0.2 (scene units) or 0.001% (of the diagonal), before anything else: "
-            "closes gaps caused by an exporter's rounding, and smooths shading across seams")
+            "Before anything else, join vertices within this distance of each other (for example 0.2 in scene units, "
+            "or 0.001% of the diagonal). This closes gaps caused by an exporter's rounding and smooths shading across "
+            "seams")
         ->check(parsable(parse_weld))
         ->type_name("LEN");
 }

@@ -192,7 +192,7 @@ TEST(Bake, WarnsOfFilesNormalsThatFaceAgainstTheirFaces) {
     ASSERT_TRUE(baked.rmse);
     ASSERT_GT(*baked.rmse, 0.1);
     ASSERT_FALSE(baked.warnings.empty());
-    EXPECT_NE(baked.warnings.front().find("normals of the file point to the back of the faces at 100 %"),
+    EXPECT_NE(baked.warnings.front().find("normals of the file point away from the front of the faces at 100 %"),
               std::string::npos)
         << baked.warnings.front();
 }

@@ -32,7 +32,7 @@ double rmse_of(Quality quality);
 
 /// The methods that the planner may choose.
 enum class Via {
-    grid, ///< calibrated and guided, which use the field; exact if they cost far more, do not fit or miss the error
+    grid, ///< calibrated and guided, on the field; exact if these cost far more, do not fit in memory or miss the error
     automatic, ///< calibrated, guided and exact: the cheapest
     mesh,      ///< exact rays on the triangles
 };
@@ -54,7 +54,7 @@ struct BakeOptions {
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};
-    std::uint32_t seed = 0; ///< of the ray directions
+    std::uint32_t seed = 0; ///< for the ray directions
 
     std::vector<Mesh> occluders{}; ///< meshes that also occlude, in the same coordinates
     bool ground = false;           ///< the plane through the lowest vertex also occludes
@@ -64,8 +64,8 @@ struct BakeOptions {
     ChannelSet attributes = Channel::ao;
     NormalSource normals = NormalSource::automatic;
     SignChoice sign = SignChoice::automatic;
-    /// Joins vertices within this length before the bake, finite and not in voxels: closes what an exporter has rounded
-    /// apart. Each vertex gets the values of the joined one.
+    /// Joins vertices within this distance of each other before the bake; finite and not in voxels. Closes gaps caused
+    /// by an exporter's rounding. Each vertex gets the values of its joined vertex.
     std::optional<Length> weld{};
     std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: chosen
     const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
@@ -75,7 +75,7 @@ struct BakeOptions {
     /// Measure the error of the bake with reference rays, and fit `calibrated` to some of them. A planned bake needs
     /// this.
     bool pilot = true;
-    /// Wall-clock seconds from the call, > 0. A bake whose estimate clearly exceeds this is refused; a running one is
+    /// Wall-clock seconds from the call, > 0. A bake whose estimate clearly exceeds this is refused; a running bake is
     /// not stopped.
     std::optional<double> time_limit{};
     BakeProgress progress{};
@@ -158,11 +158,11 @@ struct SurfacePoint {
 /// is out of range.
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
 
-/// Splits faces where ao between the vertices differs from its interpolation by more than `error` (or the RMSE of
-/// `quality`), so that vertex values can represent it: a floor of one quad under a box gets the shadow of the box.
-/// Edges up to 1/16 of the radius, or of a quarter of the diagonal if that is less, are not split. The result has at
-/// most a million faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in
-/// tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
+/// Splits faces where interpolating ao between vertices would be off by more than `error` (or the RMSE of `quality`),
+/// so that vertex values can represent ao: a floor of one quad under a box gets the shadow of the box. Edges up to 1/16
+/// of the radius, or of a quarter of the diagonal if that is less, are not split. The result has at most a million
+/// faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in tessellate().
+/// `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
 ///
 /// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
 /// as bake() and tessellate().

@@ -59,12 +59,12 @@ Frame frame_of(const Box& box);
 struct Surfel {
     Vec3 position;
     Vec3 normal;
-    /// Sum of the unit normals of the other faces that the surfel touches, each on the side of its own faces.
+    /// Sum of the unit normals of the other faces that it touches, each toward the side of the surfel's own faces.
     Vec3 away{0.0f};
     bool covered = false; ///< other faces cover its own faces: nothing is visible
 
     bool has_normal() const { return normal != Vec3(0.0f); }
-    /// Where rays start that are to start `height` above the surfel's own faces and away from those it touches.
+    /// Where rays start: `height` above the surfel's own faces, and equally far from other faces that it touches.
     Vec3 origin(float height) const { return position + height * (normal + away); }
 };
 

@@ -93,7 +93,8 @@ void LevelStack::refine(const Points& points, float* distances) const {
     std::array<float, block> x, y, z, values;
     std::array<std::uint16_t, block> near;
     for (const Bricks& level : *partial_) {
-        // Where the coarser distance is larger, even a wall that it misses is beyond the band.
+        // Where the coarser distance is at least `reach`, any wall that the coarser level misses lies beyond this
+        // level's band.
         const float reach = level.usable() + levels_->front().voxel();
         std::size_t count = 0;
         for (std::size_t i = 0; i < points.count; ++i)

@@ -11,12 +11,12 @@ namespace alcove {
 
 class Bricks; // one level in the layout of the sampler (field/detail/bricks.h)
 
-/// Distances in unit space, interpolated trilinearly on the finest level whose band contains them: if a coarser
-/// level has the distance, saturated values and the last voxel of a band are never used. Beyond the last band the
-/// result is a lower bound: the end of that band, or the distance to the bounding box of the surface. The same
-/// applies inside if GridStack::knows_inside(); otherwise the inside is limited by the end of the finest band. A
-/// probe that is known to be within `reach` of the surface samples only the one level for that height, whose voxel
-/// is at most half of it. Partial levels replace the distances in their bands.
+/// Distances in unit space, interpolated trilinearly on the finest level whose band contains them: if a coarser level
+/// has the distance, saturated values and the last voxel of a band are never used. Beyond the last band the result is a
+/// lower bound: the end of that band, or the distance to the bounding box of the surface. The same applies inside if
+/// GridStack::knows_inside(); otherwise the inside is limited by the end of the finest band. A probe that is known to
+/// be within `reach` of the surface samples only one level, whose voxel is at most half of `reach`. Partial levels
+/// replace the distances in their bands.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
 class LevelStack {

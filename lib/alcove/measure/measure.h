@@ -42,7 +42,7 @@ struct TruthOptions {
 /// As many as in a planned bake with an error of 0.02.
 inline constexpr std::size_t labels_of_pilot = 512;
 
-/// Reference ao at some vertices, by exact rays with a different seed than a bake.
+/// Reference ao at some vertices, by exact rays whose seed differs from that of a bake.
 struct Truth {
     float radius = 0.0f; ///< unit space; may be infinite
     /// All vertices with a normal except those of `labels`, or a subset that is evenly spaced along the Morton curve.

@@ -40,8 +40,8 @@ bool can_write_mesh(const std::filesystem::path& file);
 /// The contents of the input are written even if the fields of the Mesh have changed: reset `Mesh::source` after
 /// moving, adding or removing vertices or faces.
 ///
-/// \return what the format could not store, which paths changed, and what attributes replaced, except values that a
-/// comment of the file says an earlier run made, one message each; empty if there is nothing to say.
+/// \return what the format could not store, which paths changed, and which values attributes replaced, except those
+/// that an earlier run made according to a comment in the file; one message each; empty if there is nothing to say.
 /// \throw InputError for another extension, with the ones that work; IoError if the file cannot be written.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 

@@ -15,8 +15,8 @@ namespace alcove {
 
 struct RayBatch; // rays as arrays (field/detail/trace.h)
 
-/// How far above the surface rays start that end at `radius`, unit space: close enough not to matter at the scale of
-/// the radius, but above the rounding of coordinates.
+/// How far above the surface rays of length `radius` start, unit space: close enough not to matter at the scale of the
+/// radius, but above the rounding of coordinates.
 float ray_offset(float radius);
 
 /// A point on a triangle.

@@ -63,8 +63,8 @@ class Camera {
 };
 
 /// The camera of the options. By default it looks at the centre of the points, from above and in front in a
-/// three-quarter view, and from as near as keeps all points in the image with a margin of 5 %. The front is +z, or
-/// −y if up is nearer to z than to the other axes. Cost: linear in the points. \throw InputError as Camera().
+/// three-quarter view, and from as near as possible with all points in the image and a margin of 5 %. The front is +z,
+/// or −y if up is nearer to z than to the other axes. Cost: linear in the points. \throw InputError as Camera().
 Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, ImageSize size);
 
 }

@@ -158,7 +158,7 @@ struct Part {
     Material material{};
     bool colored = false;      ///< the colours of the mesh replace the colour of the material
     bool painted = false;      ///< the brightness of the colours of the mesh multiplies ao
-    bool on_triangles = false; ///< there is no surface but the triangles: nothing where the field rounds its outline up
+    bool on_triangles = false; ///< the triangles are the only surface: nothing where the field exceeds their outline
 };
 
 /// A plane, visible from its front only, that fades into the background.

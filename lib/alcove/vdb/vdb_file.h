@@ -15,8 +15,8 @@ namespace alcove {
 
 /// Writes the levels as float grids `surface`, `surface_2`, ... and the partial levels as `surface_fine_1` (half the
 /// voxel of `surface`), `surface_fine_2`, of class level set, Blosc-compressed, with `creator` and `alcove:*` metadata,
-/// to a temporary file that is renamed to `file`. Values and transforms are in
-/// scene units. `alcove:checksum` is the CRC-32 of everything that read_grids() uses, independent of the compression.
+/// to a temporary file that is renamed to `file`. Values and transforms are in scene units. `alcove:checksum` is the
+/// CRC-32 of everything that read_grids() uses, independent of the compression.
 /// \throw IoError if the file cannot be written.
 void write_grids(const GridStack& stack, const std::filesystem::path& file);
 
@@ -39,25 +39,27 @@ struct GridSelection {
     double memory_limit = std::numeric_limits<double>::infinity();
 };
 
-/// Reads a stack that write_grids() wrote, bit for bit. From any other file, reads the union of all level sets of
-/// floats and doubles (or else of all such grids without a class that hold distances) as a single level in the frame of
-/// its active voxels. Several stacks, or a stack and other level sets, are united as well, from their finest levels.
+/// Reads back, bit for bit, a stack that write_grids() wrote. From any other file, reads all float and double level
+/// sets, or, if there are none, all float and double grids that hold distances but have no grid class. Their union
+/// becomes a single level, in the frame of the union's active voxels. Several stacks, or a stack and other level sets,
+/// are also read as one union, using the finest level of each stack.
 ///
-/// Transforms may be any but frustums. Level sets that share a lattice, and those turned by 90° or mirrored, keep their
-/// values. Others are interpolated on the lattice of the smallest voxels, which rounds sharp edges by a fraction of a
-/// voxel; where voxels are not cubes, the zero isosurface is voxelized again. See detail/join.h.
+/// All transforms except frustums are supported. Level sets that share a lattice, and those turned by 90° or mirrored,
+/// keep their values. Others are interpolated on the lattice of the smallest voxels, which rounds sharp edges by a
+/// fraction of a voxel; where voxels are not cubes, the zero isosurface is voxelized again. See detail/join.h.
 ///
-/// In a stack with checksums, damage is detected except with a probability of 2⁻³². A file of another program is
-/// refused if its lengths, masks, offsets or counts are inconsistent, zipped values do not unpack, or values are
-/// not finite or larger than the grid is wide. `GridStack::warnings` counts values that are not distances because
-/// they differ too much from their neighbours. Errors in data that such a file stores only once cannot be detected:
-/// a wrong translation of the grid, and values that are wrong by less than about a voxel. A stack that alcove wrote
-/// before there were checksums gets the same checks, except that the values are compared with their neighbours only
-/// for solids. Thread-safe; uses the threads of parallel_for. Cost: in
-/// addition to OpenVDB's, reads the file once beforehand and unpacks its zipped values.
+/// In a stack with checksums, damage is detected except with a probability of 2⁻³². A file written by another program
+/// is refused if its lengths, masks, offsets or counts are inconsistent, if compressed values cannot be unpacked, or if
+/// a value is infinite, NaN, or larger than the extent of the grid. `GridStack::warnings` counts values that are not
+/// distances because they differ too much from their neighbours. Errors in data that such a file stores only once
+/// cannot be detected: a wrong translation of the grid, and values that are wrong by less than about a voxel. A stack
+/// that alcove wrote before there were checksums gets the same checks, except that the values are compared with their
+/// neighbours only for solids. Thread-safe; uses the threads of parallel_for. Cost: OpenVDB's own, plus reading the
+/// file once beforehand and unpacking its compressed values.
 ///
-/// \throw InputError with the reason: not a .vdb file, damaged, changed since it was written, no level set in it,
-/// a surface without voxels of distances, or the file cannot be opened. LimitError if the grids do not fit.
+/// \throw InputError, giving the reason: the file cannot be opened, is not a .vdb file, is damaged, has changed since
+/// it was written, contains no level set, or has a surface around which no voxels hold distances. LimitError if the
+/// grids do not fit.
 GridStack read_grids(const std::filesystem::path& file, const GridSelection& selection = {});
 
 /// The lattice of the voxels of the finest level set. \throw as read_grids(), and InputError if its voxels are not

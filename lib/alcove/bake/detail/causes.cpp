@@ -138,8 +138,8 @@ std::string coarse_faces_warning(const BakeTarget& target, std::span<const float
     const double rms = std::sqrt(squares / static_cast<double>(points.size()));
     if (rms < noticeable)
         return {};
-    return fmt::format("faces much larger than the radius cover {:.0f} % of the surface, and between their vertices "
-                       "ao differs from its interpolation by {:.2g} (RMS): split them with --tessellate auto",
+    return fmt::format("faces much larger than the radius cover {:.0f} % of the surface, and interpolating ao between "
+                       "their vertices is off by {:.2g} (RMS): split them with --tessellate auto",
                        100.0 * large_area / all_area, rms);
 }
 

@@ -7,13 +7,13 @@ namespace alcove {
 
 /// Warnings about an RMSE that the pilot measured; none if it is small. Above 0.03: walls too thin for a grid that rays
 /// were traced through. Above 0.1: the most likely of these causes: a radius close to the offset at which rays start,
-/// file normals that point to the back of their faces, thin walls, vertices on other faces. Cost: a few rays for
-/// each of up to 4,096 surfels.
+/// file normals that point away from the front of their faces, thin walls, vertices on other faces. Cost: a few rays
+/// for each of up to 4,096 surfels.
 std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const BakeTask& task, const Method& method,
                                    const Occluders& occluders);
 
-/// A warning if faces are much larger than the radius and ao between their vertices differs from its interpolation;
-/// else empty. `ao`: one value per vertex. Cost: up to 1,024 × 64 rays.
+/// A warning if faces are much larger than the radius and interpolating ao between their vertices is inaccurate; else
+/// empty. `ao`: one value per vertex. Cost: up to 1,024 × 64 rays.
 std::string coarse_faces_warning(const BakeTarget& target, std::span<const float> ao, const RaySurface& rays);
 
 }

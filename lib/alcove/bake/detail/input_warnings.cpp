@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// Normals of the file that point to the back of their faces make everything dark.
+/// Normals of the file that point away from the front of their faces make everything dark.
 void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>& warnings) {
     constexpr std::size_t most_faces = 4096;
     const std::size_t stride = std::max<std::size_t>(target.triangles.size() / most_faces, 1);
@@ -27,9 +27,10 @@ void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>&
         }
     }
     if (2 * against > compared)
-        warnings.push_back(fmt::format("the normals of the file point to the back of the faces at {:.0f} % of the "
-                                       "vertices: use --normals angle, or flip them",
-                                       100.0 * static_cast<double>(against) / static_cast<double>(compared)));
+        warnings.push_back(
+            fmt::format("the normals of the file point away from the front of the faces at {:.0f} % of the "
+                        "vertices: use --normals angle, or flip the normals",
+                        100.0 * static_cast<double>(against) / static_cast<double>(compared)));
 }
 
 void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,

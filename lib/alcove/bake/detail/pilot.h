@@ -21,10 +21,10 @@ struct PilotOptions {
 PilotOptions pilot_for(double error); ///< to measure errors of about that size, > 0
 PilotOptions pilot_beside(int rays);  ///< to measure a bake with that many rays per surfel; 0 if it traces none
 
-/// A sample of surfels with their reference ao, from exact rays with other seeds than a bake. The difference between
-/// two halves of the rays gives the noise of the reference, which is subtracted from all errors. An RMSE at 4,096
-/// surfels is accurate to about 3 % if the error is the same everywhere, and to 10 % if one surfel in a hundred has all
-/// of it. Const members are thread-safe.
+/// A sample of surfels with their reference ao, from exact rays whose seeds differ from those of a bake. The difference
+/// between two halves of the rays gives the noise of the reference, which is subtracted from all errors. An RMSE at
+/// 4,096 surfels is accurate to about 3 % if the error is the same everywhere, and to 10 % if one surfel in a hundred
+/// has all of it. Const members are thread-safe.
 class Pilot {
   public:
     static constexpr int most_rays = 1 << 20;

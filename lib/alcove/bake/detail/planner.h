@@ -22,7 +22,7 @@ struct PlanRequest {
     double area = 0.0; ///< of the triangles, unit space
     /// The finest voxel of a grid that fits in memory, unit space, from finest_voxel() in grid/detail/plan.h.
     double finest_voxel = 0.0;
-    /// With Via::grid, exact is planned if the field costs half as much again, and this many seconds more.
+    /// With Via::grid, exact is planned if the field costs over 50 % more, and over this many seconds more.
     double allowed_seconds = 0.3;
     bool has_grid = false; ///< a grid with the default GridOptions::largest_voxel exists anyway, at no extra cost
     ChannelSet wanted = Channel::ao;
@@ -52,8 +52,9 @@ class Planner {
 
     /// The cheapest untried plan that is expected to meet the error, or a trial before it. A trial is a plan that may
     /// miss the error, but is so cheap that trying it saves time on average; its method has no measured error yet, or
-    /// its measured error suggests at most a tenth above the wanted one. Where guided would need many rays, the trial
-    /// is guided with a third of them. \throw LimitError if no grid for the named method fits in memory.
+    /// its measured error suggests that the plan misses the error by at most a tenth. Where guided would need many
+    /// rays, the trial is guided with a third of them. \throw LimitError if no grid for the named method fits in
+    /// memory.
     Plan next() const;
     /// The same without these trials: the plan that is most likely to end the search.
     Plan expected() const;

@@ -28,8 +28,8 @@ class Surroundings {
                  std::vector<std::string>& warnings);
 
     /// Builds the grids of the occluders. `voxel` (scene units; 0: chosen) is the largest allowed voxel, clamped to
-    /// 1/512 to 1/32 of the diagonal of each occluder; memory may require a larger one. Appends to the warnings. \throw
-    /// as alcove::voxelize().
+    /// between 1/512 and 1/32 of each occluder's diagonal; memory may require a larger one. Appends to the warnings.
+    /// \throw as alcove::voxelize().
     void voxelize(double voxel, std::vector<std::string>& warnings);
     /// Whether these grids fit in memory.
     bool fit() const;

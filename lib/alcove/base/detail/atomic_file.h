@@ -6,12 +6,12 @@
 
 namespace alcove {
 
-/// Collects bytes in a temporary file in the folder of the target. commit() renames it over the target; without
-/// commit(), the destructor removes it and the target is unchanged. A target that is a link stays one: the file that it
-/// points to is replaced. Every failure throws IoError with the target.
+/// Collects bytes in a temporary file in the target's folder. commit() renames it over the target; without commit(),
+/// the destructor removes it and the target is unchanged. A target that is a link stays one: the file that it points to
+/// is replaced. Every failure throws an IoError that names the target.
 class AtomicFile {
   public:
-    /// \throw also InputError if the target is a pipe, a socket, a device, or a dangling symbolic link.
+    /// \throw InputError as well if the target is a pipe, a socket, a device, or a dangling symbolic link.
     explicit AtomicFile(const std::filesystem::path& target);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;

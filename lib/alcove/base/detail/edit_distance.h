@@ -12,7 +12,7 @@ namespace alcove {
 /// (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The name nearest to what was typed, at most a third of its letters and one more away; empty if none is.
+/// The closest name at an edit distance of at most a third of the typed letters plus one; empty if there is none.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
 }

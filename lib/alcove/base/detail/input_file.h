@@ -1,4 +1,4 @@
-/// A file or pipe that is read from begin to end, at most read_limit() bytes of it.
+/// A file or pipe that is read from beginning to end, at most read_limit() bytes of it.
 #pragma once
 
 #include <cstddef>

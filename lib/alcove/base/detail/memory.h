@@ -60,7 +60,7 @@ std::vector<T> huge_vector(std::size_t count, const T& value = {}) {
     return values;
 }
 
-/// The peak of resident bytes since the program started or forget_peak_resident_bytes(); 0 if the system does not
+/// The peak of resident bytes since the program started or since forget_peak_resident_bytes(); 0 if the system does not
 /// report it. Unlike the peak from getrusage(), it excludes the parent process.
 std::size_t peak_resident_bytes();
 
@@ -71,8 +71,8 @@ void forget_peak_resident_bytes();
 /// neither.
 double system_memory();
 
-/// The least `memory.max` of a control group and of those around it; infinite if there is none. `membership` is a file
-/// such as /proc/self/cgroup, `groups` a folder such as /sys/fs/cgroup.
+/// The smallest `memory.max` of a control group and of the groups that contain it; infinite if there is none.
+/// `membership` is a file such as /proc/self/cgroup, `groups` a folder such as /sys/fs/cgroup.
 double control_group_memory(const std::filesystem::path& membership, const std::filesystem::path& groups);
 
 }

@@ -45,7 +45,7 @@ class Bricks {
     float usable() const { return usable_; }
     /// The same for the negative distances behind the surface.
     float usable_inside() const { return usable_inside_; }
-    /// A bounding box of the surface, wider by at most the band and a brick.
+    /// A box around the surface, larger than the surface by at most the band and a brick.
     const Cuboid& bounds() const { return bounds_; }
     std::size_t bytes() const { return (index_.size() + bricks_.size()) * sizeof(float); }
 

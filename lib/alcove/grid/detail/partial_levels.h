@@ -20,12 +20,13 @@ struct PartialLevelsSource {
     double max_bytes;       ///< for building them
 };
 
-/// Bytes of a brick of a partial level, with that of its field.
+/// Bytes of a brick of a partial level, including those in its field.
 inline constexpr double bytes_per_partial_brick = 6000.0;
 
-/// At most two levels, from finest to coarsest: of half the voxel within 1.5 voxels of all unresolved voxels, and of a
-/// quarter of it around those of walls and gaps thinner than a voxel. Leaves out what exceeds `max_bricks`, the finest
-/// level first, and all if building them takes more than `max_bytes`. Cost: 20 ns per triangle, and that of Band::brick() for each brick.
+/// At most two levels, from finest to coarsest: one of a quarter of the voxel size around the voxels beside walls and
+/// gaps thinner than a voxel, and one of half the voxel size within 1.5 voxels of all unresolved voxels. Leaves out
+/// what exceeds `max_bricks`, the finest level first, and all if building them takes more than `max_bytes`. Cost: 20 ns
+/// per triangle, and that of Band::brick() for each brick.
 std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const PartialLevelsSource& source);
 
 }

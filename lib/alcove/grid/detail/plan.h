@@ -38,8 +38,8 @@ double triangles_voxelized(double area, std::size_t triangles, double voxel, con
 /// The default finest voxel before the memory limit is applied, unit space.
 float chosen_voxel(float radius, float largest_voxel);
 
-/// The finest voxel for which building the grids fits the memory limit, unit space; infinite if the triangles alone do
-/// not fit.
+/// The finest voxel size, in unit space, at which the grids can be built within the memory limit; infinite if the
+/// triangles alone exceed it.
 double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOptions& options);
 
 /// Adds levels until the last band, less its outermost voxel, reaches the radius. Estimates the voxels from area /

@@ -9,17 +9,17 @@
 
 namespace alcove {
 
-/// Voxels beside a wall or a gap that is thinner than two voxels.
+/// Voxels beside thin walls and gaps.
 struct UnresolvedVoxels {
-    std::vector<Index3> below_two; ///< all of them
-    std::vector<Index3> below_one; ///< those beside one that is thinner than a voxel
+    std::vector<Index3> below_two; ///< beside those thinner than two voxels
+    std::vector<Index3> below_one; ///< beside those thinner than one voxel
     double share = 0.0;            ///< of the voxels next to the surface
 };
 
 /// Compares the nearest triangles of neighbouring voxels: where they face in opposite directions, the neighbours are on
-/// both sides of the middle of a wall or gap, and the distance between the triangles is its thickness. Walls thinner
-/// than a quarter of a voxel do not count: no partial level resolves them. `nearest` are the bricks of a level of stride 1,
-/// with triangles of `surface`. Cost: about 10 ns per voxel next to the surface.
+/// opposite sides of the middle of a wall or gap, and the distance between the triangles is its thickness. Walls
+/// thinner than a quarter of a voxel do not count: no partial level resolves them. `nearest` are the bricks of a level
+/// of stride 1, with triangles of `surface`. Cost: about 10 ns per voxel next to the surface.
 UnresolvedVoxels find_unresolved(std::span<const NearestOfBrick> nearest, const Surface& surface);
 
 }

@@ -32,7 +32,7 @@ class WindingColumns {
     /// Whether there are crossings, but no winding number above 0 between them: every face is double-sided.
     bool hollow() const;
 
-    /// The share of crossings where the winding number is below 1 on both sides: of faces that do not bound a solid.
+    /// The share of crossings where the winding number is below 1 on both sides, as at faces that do not bound a solid.
     double in_air() const;
 
     /// Calls `visit(triangle, bounding)` for each crossing. It is bounding if the winding number is below 1 on exactly

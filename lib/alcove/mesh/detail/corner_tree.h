@@ -33,7 +33,7 @@ class CornerTree {
     void remove(std::size_t corner);
     bool has(std::size_t corner) const { return slots_[corner] != none; }
 
-    /// Whether `counts`, given a corner's number, is true for a corner in or on a triangle, which turns left.
+    /// Whether `counts` is true for the number of any corner in or on a triangle, which must turn left.
     template <class Predicate>
     bool any_in(const std::array<glm::dvec2, 3>& triangle, Predicate&& counts) const;
 

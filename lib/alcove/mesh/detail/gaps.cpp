@@ -138,8 +138,8 @@ std::string Gaps::advice() const {
     if (closable == 0)
         return {};
     return fmt::format(
-        "{} would close if vertices within {:.1g} were joined, which an exporter may have rounded "
-        "differently; until then there is no inside, and each side has its own normals: add --weld {:.1g}",
+        "{} would close if vertices within {:.1g} were joined (an exporter may have rounded them "
+        "differently); until then there is no inside, and each face has its own normals: add --weld {:.1g}",
         counted(closable, "open edge", "open edges"), distance, distance);
 }
 

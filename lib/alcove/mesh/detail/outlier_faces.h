@@ -18,8 +18,9 @@ struct OutlierFaces {
     std::string text(const Mesh& mesh) const;
 };
 
-/// Faces without which the diagonal of the bounding box is less than a tenth: at most one in a hundred, or two. Nothing
-/// if there are none. Cost: 50 ns per face of small meshes; less where many faces spread, as usual.
+/// Faces without which the diagonal of the bounding box would be less than a tenth as long: at most one face in a
+/// hundred, or two. Nothing if there are none. Cost: 50 ns per face of small meshes; less where many faces are spread
+/// out, as is usual.
 std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh);
 
 }

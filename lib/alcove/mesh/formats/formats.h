@@ -33,10 +33,10 @@ std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path
 /// Ends the face whose corners were added since the last call. \throw LimitError beyond 2^32 corners.
 void close_face(Mesh& mesh);
 
-/// Whether a text only fills up the last block of its file: NUL bytes and the Ctrl-Z of DOS.
+/// Whether a text is only padding of the last block of its file: NUL bytes and the Ctrl-Z of DOS.
 bool is_padding(std::string_view text);
 
-/// Converts a colour component that ranges to 255 to a byte; 0 if it is not a number.
+/// Converts a colour component in the range 0 to 255 to a byte; 0 if it is not a number.
 std::uint8_t color_byte(double value);
 
 }

@@ -1,4 +1,4 @@
-/// A tree of a surface's triangles for nearest-triangle searches, eight at a time.
+/// A tree of a surface's triangles for nearest-triangle searches that test eight triangles at a time.
 #pragma once
 
 #include "alcove/nearest/detail/fragments.h"

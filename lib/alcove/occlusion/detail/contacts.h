@@ -9,7 +9,7 @@
 
 namespace alcove {
 
-/// Whether a triangle of the RaySurface is an own face of the surfel of that index.
+/// Whether a triangle of the RaySurface is one of the own faces of the surfel with that index.
 using IsOwnFace = std::function<bool(std::size_t surfel, const Triangle&)>;
 /// For surfels that are the vertices of the triangles.
 inline bool uses_vertex(std::size_t vertex, const Triangle& t) {

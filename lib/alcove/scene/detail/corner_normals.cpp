@@ -5,7 +5,7 @@
 namespace alcove {
 
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
-    // Face normals with twice the area as length, scaled such that no product over- or underflows.
+    // Face normals whose length is twice the face's area, scaled so that no product over- or underflows.
     const double scale = exact_scale(mesh);
     std::vector<Vec3d> faces;
     std::vector<std::uint32_t> begin(mesh.positions.size() + 1, 0);

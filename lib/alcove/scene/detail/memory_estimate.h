@@ -11,7 +11,7 @@ class MemoryEstimate {
     /// `limit` in bytes.
     explicit MemoryEstimate(double limit) : limit_(limit) {}
 
-    /// Adds to what a file needs.
+    /// Adds `bytes` to the memory that `file` needs.
     void add(const std::string& file, double bytes);
     double limit() const { return limit_; }
     double left() const { return limit_ - total_; }

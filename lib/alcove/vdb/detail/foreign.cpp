@@ -59,7 +59,8 @@ void limit_background(FloatGrid& grid) {
 
 constexpr const char* rebuild = "write a narrow-band level set, as OpenVDB's levelSetRebuild does";
 
-/// Refuses a surface between blocks of equal values, which would have far more voxels than the file has bytes.
+/// Refuses a grid whose surface lies between constant-valued blocks: such a surface could need far more voxels than the
+/// file has bytes.
 void check_tiles(const FloatGrid::Ptr& grid, const std::filesystem::path& file, std::vector<std::string>& warnings) {
     const Tiles tiles = simplify_tiles({grid});
     if (tiles.at_surface > 0)

@@ -19,12 +19,12 @@ Vec3d origin_of(const VdbGrid& grid);
 /// Each coordinate rounded to a float.
 Vec3d rounded_to_floats(const Vec3d& p);
 
-/// Warns of values that are not distances; refuses the file if one is larger than the grid is wide.
+/// Warns of values that are not distances; refuses the file if one is larger than the extent of the grid.
 void check_outliers(const VdbGrid& grid, const std::filesystem::path& file, std::vector<std::string>& warnings);
 
-/// Checks a level set of another program, fills its inside, and converts distances in other units, such as voxels, to
-/// scene units. \return why it is useless, or an empty string. \throw InputError if it is damaged, or if its surface
-/// has no voxels with distances.
+/// Checks a level set that another program wrote, fills its inside, and converts distances in other units, such as
+/// voxels, to scene units. \return why it is useless, or an empty string. \throw InputError if it is damaged, or if its
+/// surface has no voxels with distances.
 std::string prepare(const VdbGrid& grid, const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 }

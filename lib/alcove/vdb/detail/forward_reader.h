@@ -1,4 +1,4 @@
-/// Reads a file from its begin to its end.
+/// Reads a file from beginning to end.
 #pragma once
 
 #include "alcove/base/detail/messages.h"

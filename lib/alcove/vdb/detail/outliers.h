@@ -1,4 +1,4 @@
-/// Checks whether the values of a grid of another program are distances, and in which unit.
+/// Checks whether the values of a grid that another program wrote are distances, and in which unit.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
@@ -14,7 +14,7 @@ double slope_of(const VdbGrid& grid, double voxel);
 /// The numbers of active voxels whose values are not distances.
 struct Outliers {
     std::size_t count = 0; ///< inconsistent with their neighbours or the background
-    std::size_t far = 0;   ///< among these, farther from 0 than the grid is wide
+    std::size_t far = 0;   ///< among these, larger than the extent of the grid
 };
 
 /// What is wrong with the active tiles of a grid: blocks of 8³ voxels and more with one value.
@@ -27,18 +27,20 @@ struct Tiles {
 /// from the outside. Cost: linear in the tiles, and in the nodes next to active ones.
 Tiles simplify_tiles(const VdbGrid& grid);
 
-/// Checks every active voxel of a grid of distances whose signs were flood-filled. Distances of neighbours along an
-/// axis differ by at most one voxel (Osher and Fedkiw 2003, ch. 2), also at the ends of the band from
-/// the values outside it. A value within 2 voxels of 0 is an outlier if it differs by more than 1.15 voxels from
-/// two neighbours or by more than 1.5 voxels from one. Other values are outliers if they differ by more than 1.15
-/// voxels from three neighbours; these are not tested for 1.5 voxels, as OpenVDB 10 builds bands of 5 voxels and
-/// more with steps of up to 2.3 voxels there. Values beyond the background may be distances: the inside may be filled.
-/// Next to an inactive voxel of the other sign, a value is compared with 0.
+/// Checks every active voxel of a grid of distances whose signs were flood-filled. Along an axis, the distances of
+/// neighbours differ by at most one voxel (Osher and Fedkiw 2003, ch. 2); this also holds between the ends of the band
+/// and the values just outside it. A value within 2 voxels of 0 is an outlier if it differs by more than 1.15 voxels
+/// from two neighbours or by more than 1.5 voxels from one. Other values are outliers if they differ by more than 1.15
+/// voxels from three neighbours; the 1.5-voxel test does not apply to them, because in bands of 5 voxels or more
+/// OpenVDB 10 produces steps of up to 2.3 voxels at such values. Values farther from 0 than the background may be
+/// valid, since some grids store distances throughout the inside. Next to an inactive voxel of the other sign, a value
+/// is compared with 0.
 ///
-/// Level sets of spheres, and filtered, offset, halved and combined ones, have no outliers. OpenVDB creates up to 8
-/// of them from some closed meshes, more from open ones. On a plane, errors below 0.72 voxel are not detected, nor
-/// errors below 1.15 voxels in values 2 voxels or more from 0; in tips and gaps narrower than the band, larger
-/// errors are missed too. Thread-safe; uses the threads of parallel_for. Cost: an eighth of read_grids().
+/// Level sets of spheres have no outliers, nor do level sets that were filtered, offset, combined or saved as half
+/// floats. Those that OpenVDB creates from some closed meshes have up to 8 outliers, those from open meshes more. On a
+/// plane, errors below 0.72 voxel are not detected, nor are errors below 1.15 voxels in values that are 2 voxels or
+/// more from 0; in tips and gaps narrower than the band, larger errors are missed too. Thread-safe; uses the threads of
+/// parallel_for. Cost: an eighth of read_grids().
 Outliers outliers_of(const VdbGrid& grid, double voxel);
 
 }

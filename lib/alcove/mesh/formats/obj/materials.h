@@ -14,8 +14,9 @@ struct FaceMaterials {
     std::vector<std::string> warnings;        ///< files that cannot be read, and what materials have besides Kd
 };
 
-/// Reads the files that the 'mtllib' lines of an OBJ name, relative to its folder, or else beside it. Takes what it can
-/// read and never throws InputError: whatever is missing is a warning. For other meshes, the result is empty.
+/// Reads the files named by an OBJ's 'mtllib' lines. Looks for each first at the given path, relative to the OBJ's
+/// folder, then by file name alone in that folder. Takes what it can read and never throws InputError: whatever is
+/// missing is a warning. For other meshes, the result is empty.
 FaceMaterials read_materials(const Mesh& mesh);
 
 /// Whether the mesh is an OBJ that names materials.

@@ -1,4 +1,4 @@
-/// What an OBJ file says of vertices and corners besides positions and faces, as it is read, and how a Mesh gets it.
+/// What an OBJ file says about vertices and corners besides positions and faces, as it is read, and how a Mesh gets it.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"

@@ -16,7 +16,7 @@ struct OffLayout {
     std::vector<OffGroup> groups; ///< in the order of the values
     bool weights = false, dimension = false;
     std::string_view keyword;
-    bool is_standard = true; ///< the prefixes of the keyword have the order of the format
+    bool is_standard = true; ///< the prefixes of the keyword are in the order of the format
 
     bool has(OffGroup group) const;
     /// The numbers of a vertex if its colour has `color_components`.
