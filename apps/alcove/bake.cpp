@@ -100,6 +100,11 @@ std::string rmse_text(const Baked& baked) {
                                     : fmt::format(", RMSE about {:.2g}", *baked.rmse);
 }
 
+std::string evaluated_text(const Baked& baked) {
+    return baked.evaluated < 1.0 ? fmt::format(" at {:.2g} % of them, the others interpolated", 100.0 * baked.evaluated)
+                                 : "";
+}
+
 /// One input, from reading to writing.
 class BakeJob {
   public:
@@ -179,6 +184,7 @@ class BakeJob {
                         {"attributes", names_of(baked.attributes)},
                         {"method", baked.method.substr(0, baked.method.find(':'))},
                         {"samples", or_null(baked.samples.has_value(), baked.samples.value_or(0))},
+                        {"evaluated", baked.evaluated},
                         {"reason", or_null(!baked.reason.empty(), baked.reason)},
                         {"radius", baked.radius},
                         {"voxel", or_null(grid.levels > 0, grid.voxel)},
@@ -192,9 +198,9 @@ class BakeJob {
                         {"warnings", warnings_}},
                        verb_.inputs.size() > 1);
         else if (!verb_.common.quiet)
-            say(fmt::format("{}: {} of {} vertices by {}, radius {:.4g}, {}{}{}", file_.output,
-                            names_of(baked.attributes), grouped(mesh_.vertex_count()), baked.method, baked.radius,
-                            grid.text(), rmse_text(baked),
+            say(fmt::format("{}: {} of {} vertices by {}{}, radius {:.4g}, {}{}{}", file_.output,
+                            names_of(baked.attributes), grouped(mesh_.vertex_count()), baked.method,
+                            evaluated_text(baked), baked.radius, grid.text(), rmse_text(baked),
                             baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason)));
     }
 

@@ -136,6 +136,7 @@ Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& pr
     baked.method = result.choice.label();
     if (result.choice.samples > 0)
         baked.samples = result.choice.samples;
+    baked.evaluated = result.evaluated;
     baked.reason = std::move(result.reason);
     baked.rmse = result.rmse;
     baked.target = task.error;

@@ -107,8 +107,11 @@ struct Baked {
     ChannelValues values;
     ChannelSet attributes;
 
-    std::string method;           ///< with its rays or samples: "guided:3"
-    std::optional<int> samples;   ///< rays or samples per vertex or point; empty if the method has neither
+    std::string method;         ///< with its rays or samples: "guided:3"
+    std::optional<int> samples; ///< rays or samples per vertex or point; empty if the method has neither
+    /// The share of the vertices or points where the method was evaluated. Where these are much denser than the detail of
+    /// the ao, the others are interpolated; only if there is an RMSE to meet.
+    double evaluated = 1.0;
     std::string reason;           ///< why exact was planned despite Via::grid; empty otherwise
     std::optional<double> rmse;   ///< of ao, estimated by the pilot; empty without a pilot
     std::optional<double> target; ///< the RMSE to meet; empty for a method with its defaults

@@ -184,23 +184,32 @@ void check_settings(const MethodInfo& method, const Settings& settings) {
     check<MethodInfo>(std::array{&method}, settings);
 }
 
-ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
-                       const Settings& settings, ChannelSet wanted, const Progress& progress) {
+std::vector<MethodRun> runs_for(const Method& chosen, const Settings& settings, ChannelSet wanted) {
     const std::vector<const Method*> needed = methods_for(chosen, wanted);
     check_settings(needed, settings);
+    std::vector<MethodRun> runs;
+    for (const Method* method : needed) {
+        runs.push_back({method, settings_of(method, needed, settings), wanted & method->gives});
+        wanted = wanted.without(method->gives);
+    }
+    return runs;
+}
+
+ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
+                       const Settings& settings, ChannelSet wanted, const Progress& progress) {
+    const std::vector<MethodRun> runs = runs_for(chosen, settings, wanted);
     const std::vector<std::uint32_t> order = spatial_order(surfels);
     ChannelValues baked;
-    ChannelSet left = wanted;
-    for (std::size_t i = 0; i < needed.size(); ++i) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const MethodRun& run = runs[i];
         const auto done = [&](double part) {
-            progress((static_cast<double>(i) + part) / static_cast<double>(needed.size()));
+            progress((static_cast<double>(i) + part) / static_cast<double>(runs.size()));
         };
-        ChannelValues part = needed[i]->bake(surfels, order, occluders, settings_of(needed[i], needed, settings), left,
-                                             progress ? done : Progress{});
+        ChannelValues part =
+            run.method->bake(surfels, order, occluders, run.settings, run.wanted, progress ? done : Progress{});
         for (const ChannelInfo& channel : channels)
             if (!part[channel.channel].empty())
                 baked[channel.channel] = std::move(part[channel.channel]);
-        left = left.without(needed[i]->gives);
     }
     return baked;
 }

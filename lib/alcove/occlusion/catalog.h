@@ -84,6 +84,15 @@ std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
 void check_settings(std::span<const Method* const> methods, const Settings& settings);
 void check_settings(const MethodInfo& method, const Settings& settings);
 
+/// One of the methods for the wanted channels, with its part of the settings and channels.
+struct MethodRun {
+    const Method* method;
+    Settings settings;
+    ChannelSet wanted;
+};
+/// \throw what methods_for() and check_settings() throw.
+std::vector<MethodRun> runs_for(const Method& chosen, const Settings& settings, ChannelSet wanted);
+
 /// Evaluates all wanted channels at the surfels (unit space). \throw what methods_for() and check_settings()
 /// throw, and InputError if a method needs a field or triangles and `occluders` has none.
 ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,

@@ -12,31 +12,44 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     for (const Surfel& s : surfels)
         if (s.has_normal())
             box.add(Vec3d(s.position));
-    using Code = Keyed<std::uint64_t>;
-    HugeVector<Code> keys;
-    keys.reserve(surfels.size());
     constexpr double cells = 1 << (morton_bits - 1);
     const Vec3d scale = cells / glm::max(box.max - box.min, Vec3d(1e-300));
+    const auto code = [&](std::uint32_t i) { return morton_code((Vec3d(surfels[i].position) - box.min) * scale); };
+    // Few surfels share even the upper bits of their codes, so radix sort covers only those. Ties are broken by the
+    // whole code, position and normal, because the result must not depend on the order of the surfels.
+    constexpr int code_bits = 3 * morton_bits, sorted_by_radix = 32;
+    using Key = Keyed<std::uint32_t>;
+    HugeVector<Key> keys;
+    keys.reserve(surfels.size());
     for (std::uint32_t i = 0; i < surfels.size(); ++i)
         if (surfels[i].has_normal())
-            keys.push_back({morton_code((Vec3d(surfels[i].position) - box.min) * scale), i});
-    // Few surfels share even the upper half of their codes, so radix sort covers only those bits. Ties are broken
-    // by position and normal, because the result must not depend on the order of the surfels.
-    constexpr int code_bits = 3 * morton_bits, sorted_by_radix = 33;
-    radix_sort(keys, code_bits - sorted_by_radix, code_bits);
-    const auto tuple = [&](const Code& key) {
-        const Surfel& s = surfels[key.value];
+            keys.push_back({static_cast<std::uint32_t>(code(i) >> (code_bits - sorted_by_radix)), i});
+    radix_sort(keys, 0, sorted_by_radix);
+    const auto tuple = [&](std::uint32_t i) {
+        const Surfel& s = surfels[i];
         return std::tuple(s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z, s.away.x,
-                          s.away.y, s.away.z, key.value);
+                          s.away.y, s.away.z, i);
     };
-    const auto upper = [&](const Code& key) { return key.key >> (code_bits - sorted_by_radix); };
-    for (auto begin = keys.begin(), end = begin; begin != keys.end(); begin = end) {
-        end = std::find_if(begin, keys.end(), [&](const Code& key) { return upper(key) != upper(*begin); });
-        std::sort(begin, end,
-                  [&](const Code& a, const Code& b) { return a.key != b.key ? a.key < b.key : tuple(a) < tuple(b); });
+    std::vector<Keyed<std::uint64_t>> ties;
+    constexpr std::size_t ahead = 32;
+    for (std::size_t begin = 0, end = 0; begin != keys.size(); begin = end) {
+        for (++end; end != keys.size() && keys[end].key == keys[begin].key;)
+            ++end;
+        for (std::size_t i = begin + ahead; i < std::min(end + ahead, keys.size()); ++i)
+            __builtin_prefetch(&surfels[keys[i].value]);
+        if (end - begin == 1)
+            continue;
+        ties.clear();
+        for (std::size_t i = begin; i < end; ++i)
+            ties.push_back({code(keys[i].value), keys[i].value});
+        std::sort(ties.begin(), ties.end(), [&](const auto& x, const auto& y) {
+            return x.key != y.key ? x.key < y.key : tuple(x.value) < tuple(y.value);
+        });
+        for (std::size_t i = begin; i < end; ++i)
+            keys[i].value = ties[i - begin].value;
     }
     std::vector<std::uint32_t> order(keys.size());
-    std::transform(keys.begin(), keys.end(), order.begin(), [](const Code& k) { return k.value; });
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& k) { return k.value; });
     return order;
 }
 

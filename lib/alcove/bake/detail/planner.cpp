@@ -72,7 +72,7 @@ double grid_seconds(const PlanRequest& request, float largest_voxel) {
 Planner::Planner(const PlanRequest& request, const Pilot& pilot)
     : error_(request.error), avoids_exact_(request.via == Via::grid && !request.method),
       allowed_seconds_(request.allowed_seconds), too_coarse_(is_too_coarse(request)) {
-    const int rays = pilot.rays_for(request.error, request.seed);
+    const int rays = request.exact_rays > 0 ? request.exact_rays : pilot.rays_for(request.error, request.seed);
     const bool only_exact = request.method ? request.method == &find_method("exact") : request.via == Via::mesh;
     if (!request.method || only_exact)
         add_exact(request, rays);

@@ -16,6 +16,7 @@ struct PlanRequest {
     Via via = Via::automatic;
     const Method* method = nullptr; ///< the only method to plan with: exact, guided or calibrated; null: any
     std::uint32_t seed = 0;
+    int exact_rays = 0; ///< of Pilot::rays_for() for this error and seed; 0: not known yet
     std::size_t surfels = 0;
     std::size_t contacts = 0; ///< surfels that touch other faces
     std::size_t triangles = 0;

@@ -1,0 +1,254 @@
+#include "alcove/occlusion/detail/interpolated.h"
+
+#include "alcove/base/detail/memory.h"
+#include "alcove/base/parallel.h"
+#include "alcove/occlusion/detail/directions.h"
+#include "alcove/occlusion/detail/local_fit.h"
+#include "alcove/occlusion/detail/subset.h"
+#include "alcove/occlusion/detail/surfel_cells.h"
+#include "alcove/occlusion/estimator.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+namespace alcove {
+namespace {
+
+constexpr std::size_t block = 64; // surfels along the curve that share their sources
+constexpr std::size_t grain = 4096;
+
+bool is_same(const Surfel& a, const Surfel& b) {
+    return a.position == b.position && a.normal == b.normal && a.away == b.away && a.covered == b.covered;
+}
+
+/// The surfels where the method was evaluated.
+struct Sources {
+    HugeVector<Surfel> surfels;
+    HugeVector<SurfelValues> values;
+    HugeVector<std::uint32_t> ranks; // ascending
+    HugeVector<float> spacings;      // median distance to eight neighbours along the curve
+
+    void add_spacings() {
+        constexpr std::size_t half = 4;
+        spacings.resize(surfels.size());
+        parallel_for(surfels.size(), grain, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                std::array<float, 2 * half> distances{};
+                std::size_t count = 0;
+                for (std::size_t k = i - std::min(i, half); k < std::min(i + half + 1, surfels.size()); ++k)
+                    if (k != i)
+                        distances[count++] = glm::length(surfels[k].position - surfels[i].position);
+                const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(count / 2);
+                std::nth_element(distances.begin(), middle, distances.begin() + static_cast<std::ptrdiff_t>(count));
+                spacings[i] = *middle;
+            }
+        });
+    }
+
+    /// The reach of a fit between these ranks. A reach of twice the spacing has about twelve sources.
+    float reach(std::size_t begin, std::size_t end) const {
+        constexpr std::size_t beside = 2;
+        constexpr float spacings_per_reach = 1.1f; // of neighbours along the curve, who are further apart
+        const auto at = [&](std::size_t rank) {
+            return static_cast<std::size_t>(std::lower_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
+        };
+        const std::size_t first = at(begin), last = std::min(at(end) + beside, spacings.size());
+        std::array<float, block + 2 * beside> near{};
+        const std::size_t from = first - std::min(first, beside), count = std::min(last - from, near.size());
+        std::copy_n(spacings.begin() + static_cast<std::ptrdiff_t>(from), count, near.begin());
+        const auto middle = near.begin() + static_cast<std::ptrdiff_t>(count / 2);
+        std::nth_element(near.begin(), middle, near.begin() + static_cast<std::ptrdiff_t>(count));
+        return spacings_per_reach * *middle;
+    }
+};
+
+class Interpolator {
+  public:
+    Interpolator(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const MethodRun& run,
+                 const Occluders& occluders, const Interpolation& interpolation, const Progress& progress)
+        : run_(run), occluders_(occluders), interpolation_(interpolation), progress_(progress),
+          used_(run.wanted.has(Channel::bent_normal) ? 4 : 1), ranks_(order.size()) {
+        reserve_huge(surfels_, order.size());
+        constexpr std::size_t ahead = 32;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (i + ahead < order.size())
+                __builtin_prefetch(&surfels[order[i + ahead]]);
+            const Surfel& surfel = surfels[order[i]];
+            if (surfels_.empty() || !is_same(surfel, surfels_.back()))
+                surfels_.push_back(surfel);
+            ranks_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
+        }
+        values_.resize(surfels_.size());
+        states_ = huge_vector(surfels_.size(), State::unknown);
+    }
+
+    /// \return false if more than the allowed share would have to be evaluated
+    bool run() {
+        for (std::size_t stride = interpolation_.stride;; stride /= 4) {
+            std::vector<std::uint32_t> next;
+            for (std::uint32_t i = 0; i < surfels_.size(); ++i)
+                if (states_[i] == State::unknown && (is_chosen(i, stride) || !is_source(surfels_[i])))
+                    next.push_back(i);
+            if (static_cast<double>(evaluated_ + next.size()) >
+                interpolation_.max_share * static_cast<double>(surfels_.size()))
+                return false;
+            evaluate_at(next);
+            if (stride == 1)
+                break;
+            interpolate();
+        }
+        return true;
+    }
+
+    /// Of the surfels, evaluated.
+    double share() const {
+        return static_cast<double>(evaluated_) / static_cast<double>(std::max<std::size_t>(surfels_.size(), 1));
+    }
+
+    /// The values of the surfel at a rank of the order given.
+    const SurfelValues& values(std::size_t rank) const { return values_[ranks_[rank]]; }
+
+  private:
+    enum class State : std::uint8_t { unknown, evaluated, interpolated };
+
+    /// One of each `stride` surfels, at random, as those of two sides or of grids alternate along the curve.
+    static bool is_chosen(std::uint32_t rank, std::size_t stride) {
+        return rank % stride == hash(static_cast<std::uint32_t>(rank / stride)) % stride;
+    }
+    static bool is_source(const Surfel& surfel) { return surfel.away == Vec3(0.0f) && !surfel.covered; }
+
+    void evaluate_at(const std::vector<std::uint32_t>& chosen) {
+        const std::vector<Surfel> some = pick(surfels_, chosen);
+        std::vector<std::uint32_t> order(some.size());
+        std::iota(order.begin(), order.end(), 0u);
+        Progress progress;
+        if (progress_)
+            progress = [&](double done) {
+                progress_((static_cast<double>(evaluated_) + done * static_cast<double>(some.size())) /
+                          static_cast<double>(surfels_.size()));
+            };
+        const ChannelValues values = run_.method->bake(some, order, occluders_, run_.settings, run_.wanted, progress);
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            SurfelValues& to = values_[chosen[i]];
+            to[0] = values[Channel::ao][i];
+            if (used_ > 1)
+                std::copy_n(&values[Channel::bent_normal][3 * i], 3, &to[1]);
+            states_[chosen[i]] = State::evaluated;
+        }
+        evaluated_ += chosen.size();
+    }
+
+    /// Interpolates the unknown surfels around which the sources agree.
+    void interpolate() {
+        Sources sources;
+        for (std::uint32_t i = 0; i < surfels_.size(); ++i)
+            if (states_[i] == State::evaluated && is_source(surfels_[i])) {
+                sources.surfels.push_back(surfels_[i]);
+                sources.values.push_back(values_[i]);
+                sources.ranks.push_back(i);
+            }
+        if (sources.surfels.size() < 2)
+            return;
+        sources.add_spacings();
+        const double sum = std::accumulate(sources.spacings.begin(), sources.spacings.end(), 0.0);
+        const SurfelCells cells(sources.surfels, static_cast<float>(sum / static_cast<double>(sources.surfels.size())));
+        if (cells.is_sparse())
+            return;
+        parallel_for((surfels_.size() + block - 1) / block, grain / block, [&](std::size_t begin, std::size_t end) {
+            SurfelCells::Found found;
+            FitSources near;
+            for (std::size_t b = begin; b < end; ++b)
+                interpolate_block(b * block, std::min((b + 1) * block, surfels_.size()), sources, cells, found, near);
+        });
+    }
+
+    void interpolate_block(std::size_t begin, std::size_t end, const Sources& sources, const SurfelCells& cells,
+                           SurfelCells::Found& found, FitSources& near) {
+        constexpr double most_cells = 512.0; // with more, evaluation is faster
+        std::optional<Bounds> bounds;
+        for (std::size_t i = begin; i < end; ++i)
+            if (states_[i] == State::unknown) {
+                if (!bounds)
+                    bounds = Bounds{surfels_[i].position, surfels_[i].position};
+                bounds->add(surfels_[i].position);
+            }
+        if (!bounds)
+            return;
+        const float reach = sources.reach(begin, end);
+        if (!(reach > 0.0f))
+            return;
+        bounds->low -= Vec3(reach);
+        bounds->high += Vec3(reach);
+        const SurfelCells::Cells inside = cells.cells_in(*bounds);
+        if (inside.count() > most_cells) { // the curve jumps within the block
+            if (end - begin == 1)
+                return;
+            const std::size_t middle = begin + (end - begin) / 2;
+            interpolate_block(begin, middle, sources, cells, found, near);
+            interpolate_block(middle, end, sources, cells, found, near);
+            return;
+        }
+        cells.find(inside, *bounds, found);
+        near.clear();
+        for (const std::uint32_t point : found.points()) {
+            const std::uint32_t source = cells.points().surfel[point];
+            near.push_back(sources.surfels[source], sources.values[source]);
+        }
+        const FitSources::Arrays arrays = near.arrays();
+        for (std::size_t i = begin; i < end; ++i)
+            if (states_[i] == State::unknown)
+                interpolate_at(i, arrays, reach);
+    }
+
+    void interpolate_at(std::size_t i, const FitSources::Arrays& near, float reach) {
+        constexpr float least_weight = 0.5f; // less than one source close by
+        const LocalFit fit = local_fit(near, surfels_[i], reach, used_);
+        if (fit.weight < least_weight || fit.deviation > interpolation_.tolerance)
+            return;
+        states_[i] = State::interpolated;
+        values_[i][0] = std::clamp(fit.values[0], 0.0f, 1.0f);
+        const Vec3 bent(fit.values[1], fit.values[2], fit.values[3]);
+        const float length = glm::length(bent);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            values_[i][1 + axis] = values_[i][0] > 0.0f && length > 0.0f ? bent[static_cast<int>(axis)] / length : 0.0f;
+    }
+
+    const MethodRun& run_;
+    const Occluders& occluders_;
+    const Interpolation& interpolation_;
+    const Progress& progress_;
+    std::size_t used_;                 // values per surfel
+    std::vector<std::uint32_t> ranks_; // index into surfels_ by rank in the order
+    std::vector<Surfel> surfels_;      // along the curve, those with equal position and normal merged
+    HugeVector<SurfelValues> values_;
+    std::vector<State> states_;
+    std::size_t evaluated_ = 0;
+};
+
+}
+
+std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels, const Occluders& occluders,
+                                                        const MethodRun& run, const Interpolation& interpolation,
+                                                        const Progress& progress) {
+    const std::vector<std::uint32_t> order = spatial_order(surfels);
+    Interpolator interpolator(surfels, order, run, occluders, interpolation, progress);
+    InterpolatedValues result;
+    if (!interpolator.run())
+        return {};
+    result.share = interpolator.share();
+    for (const ChannelInfo& channel : channels)
+        if (run.wanted.has(channel.channel)) {
+            std::vector<float>& values = result.values[channel.channel];
+            values.assign(surfels.size() * channel.components, channel.missing);
+            const std::ptrdiff_t first = channel.channel == Channel::ao ? 0 : 1;
+            parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    std::copy_n(interpolator.values(i).begin() + first, channel.components,
+                                &values[order[i] * channel.components]);
+            });
+        }
+    return result;
+}
+
+}

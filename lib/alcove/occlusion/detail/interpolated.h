@@ -1,0 +1,30 @@
+/// Evaluates a method at part of densely spaced surfels and interpolates the others.
+#pragma once
+
+#include "alcove/occlusion/catalog.h"
+
+namespace alcove {
+
+/// Where to evaluate. A method is evaluated at every `stride`-th surfel along the Morton curve. Where its ao deviates
+/// by more than `tolerance` from a local linear fit, it is also evaluated at every (stride / 4)-th surfel, and so on, at
+/// last at all of them. The other surfels get the values of the fit (see local_fit()).
+struct Interpolation {
+    std::size_t stride = 16; ///< a power of 4, > 1
+    float tolerance = 0.02f; ///< > 0
+    double max_share = 1.0;  ///< of the surfels to evaluate: with more, interpolation does not pay
+};
+
+struct InterpolatedValues {
+    ChannelValues values;
+    double share = 1.0; ///< of the surfels with a normal, at which the method was evaluated
+};
+
+/// Evaluates the channels of a run, which may be ao and the bent normal. Surfels that touch other faces are always
+/// evaluated. Surfels with the same position and normal get the same values. The values depend neither on the number of
+/// threads nor on the order of the surfels. \return std::nullopt if more than `max_share` of the surfels would have to
+/// be evaluated. Cost: the method at a share of the surfels, and about 0.1 µs per surfel.
+std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels, const Occluders& occluders,
+                                                        const MethodRun& run, const Interpolation& interpolation,
+                                                        const Progress& progress = {});
+
+}
