@@ -63,12 +63,17 @@ MethodRun exact(int rays, ChannelSet wanted = Channel::ao) {
     return {choice.method, choice.settings(radius), wanted};
 }
 
+std::optional<InterpolatedValues> interpolated(const std::vector<Surfel>& surfels, const Occluders& occluders,
+                                               const MethodRun& run, const Interpolation& interpolation) {
+    return evaluate_interpolated(surfels, spatial_order(surfels), occluders, run, interpolation);
+}
+
 TEST(Interpolated, BesideAWallAFifthOfTheSurfelsIsAsAccurateAsAll) {
     const Occluders occluders(squares({floor_square, wall_square}));
     const std::vector<Surfel> surfels = floor_surfels(300);
     const MethodRun run = exact(64);
     const auto all = evaluate(surfels, occluders, *run.method, run.settings, Channel::ao)[Channel::ao];
-    const auto some = evaluate_interpolated(surfels, occluders, run, {.stride = 16, .tolerance = 0.03f});
+    const auto some = interpolated(surfels, occluders, run, {.stride = 16, .tolerance = 0.03f});
     ASSERT_TRUE(some);
     EXPECT_LT(some->share, 0.2);
     EXPECT_LT(rmse_beside_wall(surfels, some->values[Channel::ao]), rmse_beside_wall(surfels, all));
@@ -79,7 +84,7 @@ TEST(Interpolated, BentNormalsAreInterpolatedToo) {
     const std::vector<Surfel> surfels = floor_surfels(200);
     const MethodRun run = exact(256, Channel::ao | Channel::bent_normal);
     const auto all = evaluate(surfels, occluders, *run.method, run.settings, run.wanted)[Channel::bent_normal];
-    const auto some = evaluate_interpolated(surfels, occluders, run, {.stride = 16, .tolerance = 0.03f});
+    const auto some = interpolated(surfels, occluders, run, {.stride = 16, .tolerance = 0.03f});
     ASSERT_TRUE(some);
     const std::vector<float>& bent = some->values[Channel::bent_normal];
     double square = 0.0;
@@ -98,7 +103,7 @@ TEST(Interpolated, TwoSidesOfASheetDoNotMix) {
     for (Surfel surfel : floor_surfels(150))
         for (const float side : {1.0f, -1.0f})
             surfels.push_back({surfel.position + Vec3(0, 0.05f, 0), {0, side, 0}});
-    const auto some = evaluate_interpolated(surfels, occluders, exact(256), {.stride = 16, .tolerance = 0.05f});
+    const auto some = interpolated(surfels, occluders, exact(256), {.stride = 16, .tolerance = 0.05f});
     ASSERT_TRUE(some);
     const double below = 0.25; // (h/R)²
     for (std::size_t i = 0; i < surfels.size(); ++i)
@@ -111,7 +116,7 @@ TEST(Interpolated, ValuesDependNeitherOnTheOrderNorOnThreads) {
     surfels.insert(surfels.end(), surfels.begin(), surfels.begin() + 5000); // duplicates
     const auto ao = [&](const std::vector<Surfel>& of, unsigned threads) {
         const ThreadLimit limit(threads);
-        return evaluate_interpolated(of, occluders, exact(16), {.stride = 16, .tolerance = 0.03f})->values[Channel::ao];
+        return interpolated(of, occluders, exact(16), {.stride = 16, .tolerance = 0.03f})->values[Channel::ao];
     };
     const std::vector<float> one = ao(surfels, 1);
     EXPECT_EQ(one, ao(surfels, 3));
@@ -134,7 +139,7 @@ TEST(Interpolated, ContactsAreEvaluatedAndSurfelsWithoutNormalGetOne) {
     surfels[50].covered = true;
     surfels[60] = {{0, 0, 0.1f}, {0, 1, 0}, {1, 0, 0}}; // at the foot of the wall
     surfels[70].normal = Vec3(0.0f);
-    const auto some = evaluate_interpolated(surfels, occluders, exact(256), {.stride = 16, .tolerance = 0.1f});
+    const auto some = interpolated(surfels, occluders, exact(256), {.stride = 16, .tolerance = 0.1f});
     ASSERT_TRUE(some);
     EXPECT_EQ(some->values[Channel::ao][50], 0.0f);
     EXPECT_NEAR(some->values[Channel::ao][60], 0.5f, 0.02f);
@@ -145,8 +150,8 @@ TEST(Interpolated, IsRefusedWhereNeighboursDisagree) {
     // One ray each, of which a ceiling stops half.
     const Occluders occluders(squares({floor_square, {Vec3(-50, 0.07f, -50), Vec3(100, 0, 0), Vec3(0, 0, 100)}}));
     const std::vector<Surfel> surfels = floor_surfels(100);
-    EXPECT_FALSE(evaluate_interpolated(surfels, occluders, exact(1), {16, 0.02f, 0.5}));
-    EXPECT_TRUE(evaluate_interpolated(surfels, occluders, exact(1), {16, 0.02f, 1.0}));
+    EXPECT_FALSE(interpolated(surfels, occluders, exact(1), {16, 0.02f, 0.5}));
+    EXPECT_TRUE(interpolated(surfels, occluders, exact(1), {16, 0.02f, 1.0}));
 }
 
 TEST(LocalFit, ReproducesLinearFunctionsWithoutDeviation) {

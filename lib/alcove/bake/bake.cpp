@@ -285,10 +285,12 @@ Baked bake(const Mesh& mesh, const BakeOptions& options) {
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
     const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); };
+    std::vector<std::uint32_t> faces(points.size()); // the search for contacts visits points at random
+    std::transform(points.begin(), points.end(), faces.begin(), [](const SurfacePoint& point) { return point.face; });
     const auto is_own_face = [&](std::size_t i, const Triangle& t) {
-        if (points[i].face == no_face)
+        if (faces[i] == no_face)
             return false;
-        const std::span<const std::uint32_t> face = mesh.face(points[i].face);
+        const std::span<const std::uint32_t> face = mesh.face(faces[i]);
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
             return std::find(face.begin(), face.end(), corner) != face.end();
         });

@@ -197,8 +197,13 @@ std::vector<MethodRun> runs_for(const Method& chosen, const Settings& settings, 
 
 ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
                        const Settings& settings, ChannelSet wanted, const Progress& progress) {
+    return evaluate(surfels, spatial_order(surfels), occluders, chosen, settings, wanted, progress);
+}
+
+ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                       const Occluders& occluders, const Method& chosen, const Settings& settings, ChannelSet wanted,
+                       const Progress& progress) {
     const std::vector<MethodRun> runs = runs_for(chosen, settings, wanted);
-    const std::vector<std::uint32_t> order = spatial_order(surfels);
     ChannelValues baked;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const MethodRun& run = runs[i];

@@ -97,6 +97,10 @@ std::vector<MethodRun> runs_for(const Method& chosen, const Settings& settings, 
 /// throw, and InputError if a method needs a field or triangles and `occluders` has none.
 ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
                        const Settings& settings, ChannelSet wanted, const Progress& progress = {});
+/// The same for callers that have the spatial_order() of the surfels.
+ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                       const Occluders& occluders, const Method& chosen, const Settings& settings, ChannelSet wanted,
+                       const Progress& progress = {});
 
 /// A method with its sample count.
 struct MethodChoice {

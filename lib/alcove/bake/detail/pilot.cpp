@@ -45,8 +45,11 @@ PilotOptions pilot_beside(int rays) {
 }
 
 Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius, const PilotOptions& options)
-    : surface_(surface), radius_(radius), indices_(evenly(spatial_order(surfels), options.surfels)),
-      surfels_(pick(surfels, indices_)) {
+    : Pilot(surfels, spatial_order(surfels), surface, radius, options) {}
+
+Pilot::Pilot(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const RaySurface& surface,
+             float radius, const PilotOptions& options)
+    : surface_(surface), radius_(radius), indices_(evenly(order, options.surfels)), surfels_(pick(surfels, indices_)) {
     Exact half{.radius = radius, .rays = options.rays / 2, .seed = first_seed};
     reference_ = evaluate_ao(surfels_, surface_, half);
     half.seed = second_seed;

@@ -35,6 +35,9 @@ class Pilot {
     /// `surface` occludes the surfels. The radius, in the unit of the surfels, may be infinite. Cost: `rays` rays per
     /// sampled surfel, about 50 ms.
     Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius, const PilotOptions& options = {});
+    /// The same for callers that have the spatial_order() of the surfels.
+    Pilot(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const RaySurface& surface,
+          float radius, const PilotOptions& options);
 
     bool empty() const { return indices_.empty(); } ///< true if no surfel has a normal
     /// A scale to which the errors of guided and calibrated are roughly proportional: the geometric mean of the error

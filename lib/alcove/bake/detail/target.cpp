@@ -135,13 +135,19 @@ class TargetBake {
 
     bool has_pilot() const { return task_.pilot && task_.attributes.has(Channel::ao); }
 
+    const std::vector<std::uint32_t>& order() {
+        if (order_.empty())
+            order_ = spatial_order(target_.surfels);
+        return order_;
+    }
+
     const Pilot& pilot(const PilotOptions& options) {
         if (!pilot_) {
             const RaySurface& rays = occluders_.rays();
             Stopwatch watch;
             PilotOptions share = options;
             share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
-            pilot_.emplace(target_.surfels, rays, target_.radius, share);
+            pilot_.emplace(target_.surfels, order(), rays, target_.radius, share);
             result_.seconds.pilot += watch.lap();
         }
         return *pilot_;
@@ -168,7 +174,8 @@ class TargetBake {
         if (progress_)
             progress = [&](double done) { progress_("baking", done); };
         Stopwatch watch;
-        result_.values = evaluate(target_.surfels, occluders, *choice.method, settings, task_.attributes, progress);
+        result_.values =
+            evaluate(target_.surfels, order(), occluders, *choice.method, settings, task_.attributes, progress);
         result_.seconds.occlusion += watch.lap();
         result_.choice = choice;
     }
@@ -179,8 +186,9 @@ class TargetBake {
         const std::vector<MethodRun> methods = runs_for(*plan.choice.method, settings_of(plan.choice), Channel::ao);
         const Occluders occluders = occluders_.get(needs_of(*plan.choice.method, task_.attributes), largest_voxel);
         Stopwatch watch;
-        const auto interpolated = evaluate_interpolated(pick(target_.surfels, runs_of_surfels(runs, length)), occluders,
-                                                        methods.front(), interpolation);
+        const std::vector<Surfel> some = pick(target_.surfels, runs_of_surfels(runs, length));
+        const auto interpolated =
+            evaluate_interpolated(some, spatial_order(some), occluders, methods.front(), interpolation);
         result_.seconds.occlusion += watch.lap();
         return interpolated.has_value();
     }
@@ -198,7 +206,7 @@ class TargetBake {
         const std::vector<MethodRun> runs = runs_for(method, settings, task_.attributes);
         Stopwatch watch;
         std::optional<InterpolatedValues> interpolated =
-            evaluate_interpolated(target_.surfels, occluders, runs.front(), interpolation, progress);
+            evaluate_interpolated(target_.surfels, order(), occluders, runs.front(), interpolation, progress);
         result_.seconds.occlusion += watch.lap();
         if (!interpolated)
             return {};
@@ -207,11 +215,9 @@ class TargetBake {
         if (rmse > *task_.error)
             return rmse;
         result_.values = std::move(interpolated->values);
-        const std::vector<std::uint32_t> order =
-            runs.size() > 1 ? spatial_order(target_.surfels) : std::vector<std::uint32_t>();
         for (std::size_t r = 1; r < runs.size(); ++r) {
             ChannelValues others =
-                runs[r].method->bake(target_.surfels, order, occluders, runs[r].settings, runs[r].wanted, progress);
+                runs[r].method->bake(target_.surfels, order(), occluders, runs[r].settings, runs[r].wanted, progress);
             for (const ChannelInfo& channel : channels)
                 if (!others[channel.channel].empty())
                     result_.values[channel.channel] = std::move(others[channel.channel]);
@@ -236,6 +242,7 @@ class TargetBake {
         const auto surfels = static_cast<double>(request.surfels);
         PlanRequest some = request;
         some.surfels = static_cast<std::size_t>(usual_share * surfels);
+        some.contacts = static_cast<std::size_t>(usual_share * static_cast<double>(request.contacts));
         Planner planner(some, pilot);
         for (Interpolation interpolation{16, static_cast<float>(1.5 * request.error), max_share};
              interpolation.stride > 1; interpolation.stride /= 4, interpolation.tolerance /= 2.0f) {
@@ -277,8 +284,8 @@ class TargetBake {
     }
 
     /// `count` runs of `length` surfels along the Morton curve, evenly spread.
-    std::vector<std::uint32_t> runs_of_surfels(std::size_t count, std::size_t length) const {
-        const std::vector<std::uint32_t> order = spatial_order(target_.surfels);
+    std::vector<std::uint32_t> runs_of_surfels(std::size_t count, std::size_t length) {
+        const std::vector<std::uint32_t>& order = this->order();
         length = std::min(length, order.size() / count);
         std::vector<std::uint32_t> runs;
         for (std::size_t run = 0; run < count; ++run) {
@@ -424,7 +431,8 @@ class TargetBake {
     Surroundings& surroundings_;
     const BakeProgress& progress_;
     TargetOccluders occluders_;
-    std::size_t contacts_ = 0; // surfels that touch other faces
+    std::size_t contacts_ = 0;         // surfels that touch other faces
+    std::vector<std::uint32_t> order_; // see order()
     std::optional<Pilot> pilot_;
     std::vector<std::uint32_t> sample_; // see rmse_on_sample()
     TargetResult result_;

@@ -88,7 +88,7 @@ class Interpolator {
         for (std::size_t stride = interpolation_.stride;; stride /= 4) {
             std::vector<std::uint32_t> next;
             for (std::uint32_t i = 0; i < surfels_.size(); ++i)
-                if (states_[i] == State::unknown && (is_chosen(i, stride) || !is_source(surfels_[i])))
+                if (states_[i] == State::unknown && (is_chosen(i, stride) || surfels_[i].covered))
                     next.push_back(i);
             if (static_cast<double>(evaluated_ + next.size()) >
                 interpolation_.max_share * static_cast<double>(surfels_.size()))
@@ -116,7 +116,6 @@ class Interpolator {
     static bool is_chosen(std::uint32_t rank, std::size_t stride) {
         return rank % stride == hash(static_cast<std::uint32_t>(rank / stride)) % stride;
     }
-    static bool is_source(const Surfel& surfel) { return surfel.away == Vec3(0.0f) && !surfel.covered; }
 
     void evaluate_at(const std::vector<std::uint32_t>& chosen) {
         const std::vector<Surfel> some = pick(surfels_, chosen);
@@ -143,7 +142,7 @@ class Interpolator {
     void interpolate() {
         Sources sources;
         for (std::uint32_t i = 0; i < surfels_.size(); ++i)
-            if (states_[i] == State::evaluated && is_source(surfels_[i])) {
+            if (states_[i] == State::evaluated && !surfels_[i].covered) {
                 sources.surfels.push_back(surfels_[i]);
                 sources.values.push_back(values_[i]);
                 sources.ranks.push_back(i);
@@ -228,10 +227,10 @@ class Interpolator {
 
 }
 
-std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels, const Occluders& occluders,
-                                                        const MethodRun& run, const Interpolation& interpolation,
-                                                        const Progress& progress) {
-    const std::vector<std::uint32_t> order = spatial_order(surfels);
+std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels,
+                                                        std::span<const std::uint32_t> order,
+                                                        const Occluders& occluders, const MethodRun& run,
+                                                        const Interpolation& interpolation, const Progress& progress) {
     Interpolator interpolator(surfels, order, run, occluders, interpolation, progress);
     InterpolatedValues result;
     if (!interpolator.run())

@@ -135,6 +135,14 @@ bool faces_against(const NearFace& face, const NearFace& own) {
     return glm::dot(face.normal, own.normal) < 0.0 && glm::dot(face.corners[0], own.normal) >= -rounding;
 }
 
+/// Whether a face is in the space in front of an own face, as the next face across a convex edge is not.
+bool is_before(const NearFace& face, std::span<const NearFace> own, const Vec3d& normal, double offset) {
+    return std::any_of(own.begin(), own.end(), [&](const NearFace& own_face) {
+        const Sides sides = sides_of({&face, 1}, own_face.normal, offset);
+        return glm::dot(own_face.normal, normal) < 0.0 ? sides.back : sides.front;
+    });
+}
+
 /// Whether the face continues the surface across a split vertex, such as at a UV seam.
 bool is_continuation(const NearFace& face, const Vec3d& normal, double offset) {
     constexpr double cosine = 0.7; // 45°
@@ -156,7 +164,8 @@ Contact contact_of(const Vec3& normal, std::span<const NearFace> own, std::span<
                 facing.push_back(&face);
             continue;
         }
-        if (!sides_of({&face, 1}, n, offset).front || is_continuation(face, n, offset) || is_duplicate(face, own))
+        if (!sides_of({&face, 1}, n, offset).front || !is_before(face, own, n, offset) ||
+            is_continuation(face, n, offset) || is_duplicate(face, own))
             continue;
         constexpr double same_plane = 0.99;
         const Vec3d side = of_own.front ? face.normal : -face.normal;
