@@ -2,7 +2,7 @@
 #pragma once
 
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
 #include "subdivided.h"
 

@@ -2,8 +2,7 @@
 //
 //     bake_mesh INPUT OUTPUT
 #include <alcove/bake/bake.h>
-#include <alcove/mesh/read.h>
-#include <alcove/mesh/write.h>
+#include <alcove/mesh/files.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -2,8 +2,7 @@
 //
 //     bake_openmesh INPUT OUTPUT.ply
 #include <alcove/bake/openmesh.h>
-#include <alcove/mesh/read.h>
-#include <alcove/mesh/write.h>
+#include <alcove/mesh/files.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>

@@ -2,7 +2,7 @@
 //
 //     inspect_mesh INPUT
 #include <alcove/mesh/diagnose.h>
-#include <alcove/mesh/read.h>
+#include <alcove/mesh/files.h>
 #include <alcove/mesh/triangulate.h>
 
 #include <cstdio>

@@ -2,7 +2,7 @@
 //
 //     make_grid INPUT OUTPUT.vdb
 #include <alcove/grid/voxelize.h>
-#include <alcove/mesh/read.h>
+#include <alcove/mesh/files.h>
 #include <alcove/mesh/triangulate.h>
 #include <alcove/vdb/vdb_file.h>
 

@@ -4,7 +4,7 @@
 #include <alcove/field/level_stack.h>
 #include <alcove/field/primitives.h>
 #include <alcove/grid/voxelize.h>
-#include <alcove/mesh/read.h>
+#include <alcove/mesh/files.h>
 #include <alcove/mesh/triangulate.h>
 
 #include <array>

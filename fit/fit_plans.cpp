@@ -10,7 +10,7 @@
 #include "alcove/bake/detail/pilot.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/measure/measure.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "subdivided.h"
 
 #include <Eigen/QR>

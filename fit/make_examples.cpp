@@ -12,7 +12,7 @@
 #include "alcove/field/detail/trace.h"
 #include "alcove/field/level_stack.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/methods/calibrated_probes.h"
 

@@ -1,7 +1,7 @@
 #include "meshes.h"
 
 #include "alcove/base/types.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 
 #include <algorithm>
 #include <cctype>

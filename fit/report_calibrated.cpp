@@ -6,7 +6,7 @@
 #include "meshes.h"
 
 #include "alcove/measure/measure.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 
 #include <fmt/format.h>
 

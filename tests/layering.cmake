@@ -2,7 +2,7 @@
 # its file and line.
 #
 #     base <- mesh <- nearest <- grid <- vdb    base <- field <- occlusion
-#     grid, occlusion <- bake <- render <- scene, measure <- apps
+#     grid, occlusion <- bake <- render <- scene, measure, maps <- apps
 #
 # Headers directly in a folder of lib/alcove are public, except those of nearest/. Headers in subfolders are not
 # installed.
@@ -25,7 +25,8 @@ set(bake_may_include base mesh grid vdb field occlusion bake)
 set(render_may_include base mesh grid vdb field occlusion bake render)
 set(scene_may_include base mesh grid vdb field occlusion bake render scene)
 set(measure_may_include base mesh grid vdb field occlusion bake render measure)
-set(apps_may_include base mesh grid vdb field occlusion bake render scene measure)
+set(maps_may_include base mesh field occlusion bake render maps)
+set(apps_may_include base mesh grid vdb field occlusion bake render scene measure maps)
 # Files that may also include grid.
 set(grid_also_in "^lib/alcove/field/(level_stack|detail/bricks|detail/sample_bricks)\\.(h|cpp)$")
 
@@ -36,9 +37,9 @@ set(openvdb_only_in "^lib/alcove/((grid|vdb|field)/[a-z0-9_/]+\\.cpp|grid/detail
 set(embree_headers "^embree[0-9]*/")
 set(embree_only_in "^lib/alcove/occlusion/occluders\\.cpp$")
 set(openexr_headers "^(OpenEXR/|Imath/|Imf|Imath|half\\.h)")
-set(openexr_only_in "^lib/alcove/render/(exr|image_summary)\\.cpp$")
+set(openexr_only_in "^lib/alcove/render/(detail/exr_file|image_summary)\\.cpp$")
 set(png_headers "^(libpng[0-9]*/)?png\\.h$")
-set(png_only_in "^lib/alcove/render/(png|image_summary)\\.cpp$")
+set(png_only_in "^lib/alcove/render/(png|detail/png_file|image_summary)\\.cpp$")
 set(openmesh_headers "^OpenMesh/")
 set(openmesh_only_in "^lib/alcove/(mesh/|bake/openmesh\\.h$)")
 set(tbb_headers "^(oneapi/)?tbb[/.]")
@@ -172,7 +173,7 @@ endif()
 
 # The umbrella header includes all public headers of the library alcove::alcove.
 file(GLOB headers RELATIVE ${TREE}/lib/alcove ${TREE}/lib/alcove/*/*.h)
-list(FILTER headers EXCLUDE REGEX "^(nearest|render|scene|measure)/|^bake/openmesh\\.h$")
+list(FILTER headers EXCLUDE REGEX "^(nearest|render|scene|measure|maps)/|^bake/openmesh\\.h$")
 foreach(header IN LISTS headers)
     if(NOT header IN_LIST umbrella)
         string(APPEND failures "lib/alcove/alcove.h: leaves out ${header}, which is public\n")

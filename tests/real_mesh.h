@@ -1,7 +1,7 @@
 /// The real meshes that the setup unpacks.
 #pragma once
 
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <string>

@@ -1,16 +1,18 @@
 #include "bake_batch.h"
 #include "ending.h"
 #include "inputs.h"
+#include "map_output.h"
 #include "options.h"
 #include "weld.h"
 
 #include "alcove/bake/bake.h"
+#include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
 #include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/detail/tessellate.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/vdb/vdb_file.h"
 
 #include <fmt/format.h>
@@ -27,6 +29,7 @@ struct BakeVerb {
     CommonOptions common;
     BakeOptions bake;
     AddOptions add;
+    MapRequest map;
     MethodRequest method;
     std::vector<std::string> inputs, occluders, grid_names;
     std::string output, grid, write_grid, tessellate;
@@ -82,14 +85,37 @@ void check_usage(const BakeVerb& verb) {
     as_usage([&] { check(options); });
 }
 
+void check_map_usage(const BakeVerb& verb, const std::string& output) {
+    const auto refuse = [&](bool given, std::string_view option) {
+        if (given)
+            throw UsageError(fmt::format("{} is for values at vertices: {} is a texture map", option, output));
+    };
+    refuse(!verb.tessellate.empty(), "--tessellate");
+    refuse(verb.bake.self, "--self");
+    refuse(verb.bake.weld.has_value(), "--weld");
+    refuse(verb.add.color != ColorUse::automatic, "--color");
+    refuse(!verb.write_grid.empty(), "--write-grid");
+    as_usage([&] {
+        check(verb.map.map);
+        check(verb.map.files, output);
+    });
+    const AtomicFile probe(output); // to find out early
+}
+
 void check_format(const BakeVerb& verb, const std::string& output) {
+    if (is_map(output))
+        return check_map_usage(verb, output);
+    if (verb.map.given || verb.map.files.depth != MapDepth::automatic)
+        throw UsageError("--size, --subsamples, --margin and --depth are for texture maps: write a .png or .exr");
     const ChannelSet others = verb.bake.attributes.without(Channel::ao);
     if (extension(output) == ".obj" && !others.empty())
         throw UsageError(output + ": an .obj can store only ao, as colours: write a .ply for " + names_of(others));
     if (extension(output) == ".obj" && verb.add.color == ColorUse::none)
         throw UsageError(output + ": an .obj can store ao only as colours: leave out --color none, or write a .ply");
     if (!can_write_mesh(output))
-        throw UsageError(output + ": meshes are written as .ply or .obj: use one of these extensions");
+        throw UsageError(output +
+                         ": meshes are written as .ply or .obj, texture maps as .png or .exr: use one of these "
+                         "extensions");
 }
 
 std::string rmse_text(const Baked& baked) {
@@ -118,7 +144,10 @@ class BakeJob {
         Stopwatch watch;
         read(options);
         seconds_["read"] = watch.lap();
-        const Baked baked = bake(mesh_, options);
+        std::optional<BakedMaps> maps;
+        if (is_map(file_.output))
+            maps = bake_maps(mesh_, options, map_options());
+        const Baked baked = maps ? std::move(maps->baked) : bake(mesh_, options);
         seconds_["grid"] = baked.seconds.grid;
         seconds_["occlusion"] = baked.seconds.occlusion;
         seconds_["pilot"] = baked.seconds.pilot;
@@ -127,7 +156,10 @@ class BakeJob {
                 fmt::format("{}: misses the error target of {:g}: the measured RMSE is {:.2g}, and nothing is written",
                             file_.input, *baked.target, *baked.rmse));
         watch.lap();
-        write(baked);
+        if (maps)
+            write_maps(*maps, file_.output, verb_.map.files);
+        else
+            write(baked);
         seconds_["write"] = watch.lap();
         warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
         warnings_.insert(warnings_.begin(), mesh_.warnings.begin(), mesh_.warnings.end());
@@ -135,10 +167,16 @@ class BakeJob {
         for (const std::string& warning : warnings_)
             print_warnings({verb_.inputs.size() > 1 ? fmt::format("{}: {}", file_.input, warning) : warning},
                            verb_.common);
-        print(baked);
+        print(baked, maps);
     }
 
   private:
+    MapOptions map_options() const {
+        MapOptions options = verb_.map.map;
+        options.udim = file_.output.find("<UDIM>") != std::string::npos;
+        return options;
+    }
+
     void read(BakeOptions& options) {
         if (is_grid(file_.input)) {
             grid_ = read_grids(file_.input, {verb_.grid_names});
@@ -171,16 +209,22 @@ class BakeJob {
             warnings_.push_back(std::move(lost));
     }
 
-    void print(const Baked& baked) const {
+    void print(const Baked& baked, const std::optional<BakedMaps>& maps) const {
         const auto or_null = [](bool there, const auto& value) {
             return there ? nlohmann::ordered_json(value) : nullptr;
         };
         const GridSummary& grid = baked.grid_summary;
+        nlohmann::ordered_json size;
+        if (maps)
+            size = {maps->width, maps->height};
         if (verb_.common.json)
             print_json({{"input", file_.input},
                         {"output", file_.output},
                         {"vertices", mesh_.vertex_count()},
                         {"faces", mesh_.face_count()},
+                        {"size", size},
+                        {"texels", or_null(maps.has_value(), maps ? maps->texels : 0)},
+                        {"overlaps", or_null(maps.has_value(), maps ? maps->overlaps : 0)},
                         {"attributes", names_of(baked.attributes)},
                         {"method", baked.method.substr(0, baked.method.find(':'))},
                         {"samples", or_null(baked.samples.has_value(), baked.samples.value_or(0))},
@@ -198,10 +242,12 @@ class BakeJob {
                         {"warnings", warnings_}},
                        verb_.inputs.size() > 1);
         else if (!verb_.common.quiet)
-            say(fmt::format("{}: {} of {} vertices by {}{}, radius {:.4g}, {}{}{}", file_.output,
-                            names_of(baked.attributes), grouped(mesh_.vertex_count()), baked.method,
-                            evaluated_text(baked), baked.radius, grid.text(), rmse_text(baked),
-                            baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason)));
+            say(fmt::format(
+                "{}: {} by {}{}, radius {:.4g}, {}{}{}", file_.output,
+                maps ? summary_of(baked, *maps)
+                     : fmt::format("{} of {} vertices", names_of(baked.attributes), grouped(mesh_.vertex_count())),
+                baked.method, evaluated_text(baked), baked.radius, grid.text(), rmse_text(baked),
+                baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason)));
     }
 
     const BakeVerb& verb_;
@@ -239,7 +285,10 @@ void add_files(CLI::App& app, BakeVerb& verb) {
     app.add_option("input", verb.inputs,
                    "Meshes to bake (ply, obj, off, stl), or level sets (vdb), whose zero isosurface is meshed first")
         ->required();
-    app.add_option("-o,--output", verb.output, "Mesh to write (ply, obj), or a folder that gets one mesh per input")
+    app.add_option(
+           "-o,--output", verb.output,
+           "Mesh to write (ply, obj), texture map (png, exr), or a folder that gets one mesh per input. <UDIM> in "
+           "the name of a map: one file per tile")
         ->required();
 }
 
@@ -353,6 +402,7 @@ constexpr const char* examples = "Examples:\n"
                                  "  alcove bake chair.ply -o chair_ao.ply --ground --up 0,0,1 --occluder table.ply\n"
                                  "  alcove bake level.obj -o level_ao.ply --tessellate auto\n"
                                  "  alcove bake kit.obj -o kit_ao.obj --self\n"
+                                 "  alcove bake dragon.obj -o dragon_ao.png --size 4096\n"
                                  "  alcove bake level_set.vdb -o level_set_ao.ply --adaptivity 0.2\n"
                                  "  alcove bake scan.ply -o scan_ao.ply --write-grid scan.vdb\n"
                                  "  alcove bake scan.ply -o scan_ao.ply --grid scan.vdb --method classic\n";
@@ -360,7 +410,8 @@ constexpr const char* examples = "Examples:\n"
 }
 
 void add_bake(CLI::App& program) {
-    auto* app = program.add_subcommand("bake", "Compute ambient occlusion and masks at the vertices of meshes");
+    auto* app = program.add_subcommand(
+        "bake", "Compute ambient occlusion and masks at the vertices of meshes, or as texture maps");
     auto verb = std::make_shared<BakeVerb>();
     add_files(*app, *verb);
     add_planning(*app, *verb);
@@ -368,6 +419,7 @@ void add_bake(CLI::App& program) {
     add_grids(*app, *verb);
     add_occluders(*app, *verb);
     add_colors(*app, *verb);
+    add_map_options(*app, verb->map);
     add_common_options(*app, verb->common);
     app->footer(examples);
     app->callback([verb] { run(*verb); });

@@ -8,7 +8,7 @@
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/measure/report.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/vdb/vdb_file.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,7 @@
 #include "options.h"
 
 #include "alcove/mesh/detail/join.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 
 #include <CLI/CLI.hpp>
 

@@ -18,9 +18,8 @@
 #include "alcove/mesh/diagnose.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/mesh/write.h"
 
 #include "alcove/grid/grid_stack.h"
 #include "alcove/grid/voxelize.h"

@@ -7,9 +7,8 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/mesh/write.h"
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/methods/reference/classic.h"
 

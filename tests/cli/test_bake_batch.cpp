@@ -4,8 +4,7 @@
 #include "shapes.h"
 
 #include "alcove/bake/bake.h"
-#include "alcove/mesh/read.h"
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 
 #include <sstream>
 

@@ -3,8 +3,7 @@
 #include "program.h"
 
 #include "alcove/measure/measure.h"
-#include "alcove/mesh/read.h"
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 
 #include <cmath>
 

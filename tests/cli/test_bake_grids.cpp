@@ -4,9 +4,8 @@
 
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/detail/parts.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/mesh/write.h"
 #include "alcove/vdb/vdb_file.h"
 
 #include <algorithm>

@@ -5,9 +5,8 @@
 #include "shapes.h"
 
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
-#include "alcove/mesh/write.h"
 
 #include <cmath>
 #include <limits>

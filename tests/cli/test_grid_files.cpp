@@ -4,7 +4,7 @@
 #include "shapes.h"
 
 #include "alcove/grid/detail/vdb_grid.h"
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 
 #include <openvdb/io/File.h>
 #include <openvdb/tools/LevelSetPlatonic.h>

@@ -1,6 +1,6 @@
 #include "program.h"
 
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 #include "alcove/occlusion/catalog.h"
 
 #include "shapes.h"

@@ -2,7 +2,7 @@
 #include "program.h"
 
 #include "alcove/mesh/formats/ply/ply_document.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 /// Scenes of extreme scale and position. Neither may affect the result.
 #include "extreme.h"
 
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 
 #include "scratch_folder.h"
 

@@ -1,8 +1,7 @@
 /// A temporary folder for each test, removed at its end, with helpers to write and read files in it.
 #pragma once
 
-#include "alcove/mesh/read.h"
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 
 #include "scratch_folder.h"
 

@@ -1,4 +1,4 @@
-#include "alcove/scene/detail/corner_normals.h"
+#include "alcove/mesh/detail/corner_normals.h"
 
 #include "alcove/mesh/triangulate.h"
 #include "shapes.h"
@@ -42,6 +42,22 @@ TEST(CornerNormals, TheFilesOwnGoFirst) {
     for (std::size_t f = 0; f < triangles.size(); ++f)
         for (std::size_t corner = 0; corner < 3; ++corner)
             EXPECT_EQ(normals[f][corner] == glm::normalize(Vec3(1, 2, 3)), triangles[f][corner] != 0);
+}
+
+TEST(CornerNormals, OfCornersComeBeforeThoseOfVertices) {
+    Mesh box = box_mesh(Vec3d(1.0), 1);
+    box.normals.assign(box.positions.size(), glm::normalize(Vec3(1, 2, 3)));
+    for (std::size_t c = 0; c < box.corners.size(); ++c) // another for each corner
+        box.corner_normals.push_back(glm::normalize(Vec3(1, static_cast<float>(c), 0)));
+    box.corner_normals[0] = Vec3(0.0f); // missing in the file
+    const std::vector<Triangle> triangles = triangulate(box).triangles, corners = corners_of_triangles(box);
+    const auto normals = corner_normals(box, triangles);
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(box.corners[corners[f][k]], triangles[f][k]);
+            EXPECT_EQ(corners[f][k] / 4, f / 2); // of the same quad
+            EXPECT_EQ(normals[f][k], corners[f][k] == 0 ? box.normals[0] : box.corner_normals[corners[f][k]]);
+        }
 }
 
 TEST(CornerNormals, DegenerateFacesHaveNone) {

@@ -3,7 +3,7 @@
 #include "alcove/occlusion/methods/traced.h"
 
 #include "alcove/field/primitives.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/occlusion/estimator.h"
 #include "exact_distance.h"
 #include "voxelized.h"

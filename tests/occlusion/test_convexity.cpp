@@ -2,7 +2,7 @@
 #include "alcove/occlusion/methods/reference/classic.h"
 
 #include "alcove/field/primitives.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/occlusion/estimator.h"
 #include "shapes.h"
 #include "voxelized.h"

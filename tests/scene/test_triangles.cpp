@@ -2,7 +2,7 @@
 #include "scene_text.h"
 
 #include "alcove/base/types.h"
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 #include "alcove/scene/scene.h"
 #include "shapes.h"
 

@@ -11,7 +11,7 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 #include "alcove/occlusion/channels.h"
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 ///     const auto ao = OpenMesh::getProperty<OpenMesh::VertexHandle, float>(mesh, "ao");
 ///
 /// OpenMesh represents only manifolds. Its readers duplicate the vertices of non-manifold faces and drop faces with a
-/// repeated vertex, so the baked mesh differs from the file. Use read_mesh() of mesh/read.h for such files, as
+/// repeated vertex, so the baked mesh differs from the file. Use read_mesh() of mesh/files.h for such files, as
 /// examples/bake_openmesh.cpp does. OpenMesh's readers also round coordinates to float, read an OFF file with comments
 /// as empty, and triangulate polygons for a TriMesh as fans, which is wrong for concave ones. The values equal those
 /// of `alcove bake` if to_mesh() equals the mesh that read_mesh() returns.

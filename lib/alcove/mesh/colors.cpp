@@ -1,4 +1,4 @@
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 
 #include <algorithm>
 #include <cmath>

@@ -27,6 +27,7 @@ struct Attribute {
 struct Mesh {
     std::vector<Vec3d> positions;                 ///< scene units
     std::vector<Vec3> normals;                    ///< empty, or one per vertex: those of the file, unit length or zero
+    std::vector<Vec3> corner_normals;             ///< empty, or one per corner, if vertices have several in the file
     std::vector<std::uint32_t> face_begin{0};     ///< faces + 1 offsets into `corners`
     std::vector<std::uint32_t> corners;           ///< vertex indices of one face after another; all in range
     std::vector<Vec2> vertex_uvs;                 ///< empty, or one per vertex

@@ -1,4 +1,4 @@
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"

@@ -147,6 +147,18 @@ std::vector<std::uint32_t> faces_of_triangles(const Mesh& mesh) {
     return faces;
 }
 
+std::vector<Triangle> corners_of_triangles(const Mesh& mesh) {
+    std::vector<std::uint32_t> faces;
+    std::vector<Triangle> triangles =
+        triangulate_range(mesh, are_finite(mesh.positions), 0, mesh.face_count(), &faces).triangles;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const auto first = mesh.corners.begin() + mesh.face_begin[faces[t]];
+        for (std::uint32_t& corner : triangles[t])
+            corner = static_cast<std::uint32_t>(std::find(first, mesh.corners.end(), corner) - mesh.corners.begin());
+    }
+    return triangles;
+}
+
 Triangulation triangulate(const Mesh& mesh) {
     const bool all_finite = are_finite(mesh.positions);
     // For triangles, sharing the work and joining the results would take longer than the work itself.

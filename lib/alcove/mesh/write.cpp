@@ -1,4 +1,4 @@
-#include "alcove/mesh/write.h"
+#include "alcove/mesh/files.h"
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/types.h"

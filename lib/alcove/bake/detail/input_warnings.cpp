@@ -33,6 +33,25 @@ void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>&
                         100.0 * static_cast<double>(against) / static_cast<double>(compared)));
 }
 
+void warn_of_hard_edges(const Mesh& mesh, std::vector<std::string>& warnings) {
+    std::vector<Vec3> first(mesh.vertex_count(), Vec3(0.0f));
+    std::vector<std::uint8_t> has_several(mesh.vertex_count(), 0);
+    for (std::size_t c = 0; c < mesh.corner_normals.size(); ++c) {
+        Vec3& known = first[mesh.corners[c]];
+        const Vec3& normal = mesh.corner_normals[c];
+        if (known == Vec3(0.0f))
+            known = normal;
+        else if (normal != Vec3(0.0f) && normal != known)
+            has_several[mesh.corners[c]] = 1;
+    }
+    const auto several = static_cast<std::size_t>(std::count(has_several.begin(), has_several.end(), 1));
+    if (several > 0)
+        warnings.push_back(counted(several, "vertex has several normals (hard edges) but stores",
+                                   "vertices have several normals (hard edges) but store") +
+                           " one value, computed for their average; split the vertices there before export (Blender: "
+                           "Edge Split) to get one value per side");
+}
+
 void warn_of_missing_normals(std::span<const Surfel> surfels, std::string_view what,
                              std::vector<std::string>& warnings) {
     const auto missing = std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return !s.has_normal(); });
@@ -74,8 +93,10 @@ std::vector<std::string> input_warnings(const BakeTarget& target, std::string_vi
         const bool of_file = !target.mesh.normals.empty() &&
                              (options.normals == NormalSource::automatic || options.normals == NormalSource::file);
         warnings = gap_warnings(target.mesh, target.triangles, target.surfels, of_file);
-        if (of_file)
+        if (of_file) {
             warn_of_flipped_normals(target, warnings);
+            warn_of_hard_edges(target.mesh, warnings);
+        }
     }
     warn_of_missing_normals(target.surfels, name, warnings);
     warn_of_outliers(target, options.radius, warnings);

@@ -1,6 +1,7 @@
-#include "alcove/scene/detail/corner_normals.h"
+#include "alcove/mesh/detail/corner_normals.h"
 
 #include "alcove/mesh/normals.h"
+#include "alcove/mesh/triangulate.h"
 
 namespace alcove {
 
@@ -24,10 +25,16 @@ std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<cons
         for (const std::uint32_t vertex : triangles[f])
             around[filled[vertex]++] = f;
 
+    const std::vector<Triangle> corners =
+        mesh.corner_normals.empty() ? std::vector<Triangle>() : corners_of_triangles(mesh);
     std::vector<std::array<Vec3, 3>> normals(triangles.size());
     for (std::size_t f = 0; f < triangles.size(); ++f)
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = triangles[f][corner];
+            if (!corners.empty() && mesh.corner_normals[corners[f][corner]] != Vec3(0.0f)) {
+                normals[f][corner] = mesh.corner_normals[corners[f][corner]];
+                continue;
+            }
             if (!mesh.normals.empty() && mesh.normals[vertex] != Vec3(0.0f)) {
                 normals[f][corner] = mesh.normals[vertex];
                 continue;

@@ -95,6 +95,7 @@ void replace_faces(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
     mesh.corners.clear();
     mesh.face_begin.assign(1, 0);
     mesh.corner_uvs.clear();
+    mesh.corner_normals.clear();
     mesh.face_colors.clear();
     const auto add_face = [&](std::uint32_t f, std::span<const std::uint32_t> vertices) {
         mesh.add_face(vertices);
@@ -106,9 +107,12 @@ void replace_faces(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
     for (std::uint32_t f = 0; f < old.face_count(); ++f) {
         if (!bisection.is_cut(f)) {
             add_face(f, old.face(f));
-            if (!old.corner_uvs.empty())
-                mesh.corner_uvs.insert(mesh.corner_uvs.end(), old.corner_uvs.begin() + old.face_begin[f],
-                                       old.corner_uvs.begin() + old.face_begin[f + 1]);
+            const auto copy_corners = [&](const auto& from, auto& to) {
+                if (!from.empty())
+                    to.insert(to.end(), from.begin() + old.face_begin[f], from.begin() + old.face_begin[f + 1]);
+            };
+            copy_corners(old.corner_uvs, mesh.corner_uvs);
+            copy_corners(old.corner_normals, mesh.corner_normals);
         }
         for (; piece != end && piece->face == f; ++piece) {
             if (!bisection.is_cut(f))
@@ -117,6 +121,10 @@ void replace_faces(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
             for (std::size_t k = 0; k < 3 && !old.corner_uvs.empty(); ++k)
                 mesh.corner_uvs.emplace_back(blended(
                     piece->weights[k], [&](int i) { return Vec2d(old.corner_uvs[piece->corners[std::size_t(i)]]); }));
+            for (std::size_t k = 0; k < 3 && !old.corner_normals.empty(); ++k)
+                mesh.corner_normals.push_back(unit_or_zero(Vec3(blended(piece->weights[k], [&](int i) {
+                    return Vec3d(old.corner_normals[piece->corners[std::size_t(i)]]);
+                }))));
         }
     }
 }

@@ -9,6 +9,7 @@
 #include "alcove/occlusion/estimator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -46,10 +47,12 @@ struct Sources {
         });
     }
 
-    /// The reach of a fit between these ranks. A reach of twice the spacing has about twelve sources.
+    /// The reach of a fit between these ranks. A reach of twice the spacing has about twelve sources. In steps, so that
+    /// few neighbouring blocks differ: a change of the reach may be visible.
     float reach(std::size_t begin, std::size_t end) const {
         constexpr std::size_t beside = 2;
-        constexpr float spacings_per_reach = 1.1f; // of neighbours along the curve, who are further apart
+        constexpr float spacings_per_reach = 1.0f; // of neighbours along the curve, who are further apart
+        constexpr float steps = 2.0f;              // per octave
         const auto at = [&](std::size_t rank) {
             return static_cast<std::size_t>(std::lower_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
         };
@@ -59,7 +62,8 @@ struct Sources {
         std::copy_n(spacings.begin() + static_cast<std::ptrdiff_t>(from), count, near.begin());
         const auto middle = near.begin() + static_cast<std::ptrdiff_t>(count / 2);
         std::nth_element(near.begin(), middle, near.begin() + static_cast<std::ptrdiff_t>(count));
-        return spacings_per_reach * *middle;
+        const float reach = spacings_per_reach * *middle;
+        return reach > 0.0f ? std::exp2(std::ceil(steps * std::log2(reach)) / steps) : 0.0f;
     }
 };
 

@@ -4,7 +4,7 @@
 #include "alcove/field/level_stack.h"
 #include "alcove/mesh/detail/gaps.h"
 #include "alcove/mesh/detail/join.h"
-#include "alcove/mesh/read.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/render/renderer.h"
 #include "alcove/scene/detail/support.h"

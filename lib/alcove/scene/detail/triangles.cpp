@@ -5,7 +5,7 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/detail/directions.h"
-#include "alcove/scene/detail/corner_normals.h"
+#include "alcove/mesh/detail/corner_normals.h"
 
 #include <array>
 

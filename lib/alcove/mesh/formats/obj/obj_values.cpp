@@ -134,6 +134,9 @@ class ValueAdder {
                 others.push_back({mesh_.corners[c], n.x, n.y, n.z});
             }
         }
+        if (!others.empty())
+            for (const CornerReference& corner : corners)
+                mesh_.corner_normals.push_back(normal_of(corner) == 0 ? Vec3(0.0f) : values_.normals[corner.normal - 1]);
         add_sums(first, others);
     }
 
@@ -144,17 +147,10 @@ class ValueAdder {
         sums.reserve(first.size());
         for (const std::uint32_t normal : first)
             sums.push_back(normal == 0 ? Vec3d(0.0) : Vec3d(values_.normals[normal - 1]));
-        std::size_t several = 0;
-        for (std::size_t i = 0; i < others.size(); ++i) {
-            sums[others[i].vertex] += Vec3d(others[i].x, others[i].y, others[i].z);
-            several += i == 0 || others[i].vertex != others[i - 1].vertex;
-        }
+        for (const VertexNormal& other : others)
+            sums[other.vertex] += Vec3d(other.x, other.y, other.z);
         for (const Vec3d& sum : sums)
             mesh_.normals.push_back(unit_or_zero(sum));
-        warn(several, "vertex has several normals (hard edges) but stores",
-             "vertices have several normals (hard edges) but store",
-             "one value, computed for their average; split the vertices there before export (Blender: Edge Split) to "
-             "get one value per side");
     }
 
     Mesh& mesh_;

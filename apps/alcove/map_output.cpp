@@ -1,0 +1,88 @@
+#include "map_output.h"
+
+#include "alcove/base/detail/messages.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace alcove::cli {
+namespace {
+
+/// A whole number that takes up all of the text.
+std::optional<int> whole_number(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+/// N or WxH.
+std::pair<int, int> parse_size(const std::string& text) {
+    const std::size_t times = text.find('x');
+    const std::optional<int> width = whole_number(std::string_view(text).substr(0, times)),
+                             height = times == std::string::npos
+                                          ? width
+                                          : whole_number(std::string_view(text).substr(times + 1));
+    if (!width || !height)
+        throw InputError(fmt::format("takes a number of texels such as 2048, or 2048x1024, not '{}'", text));
+    return {*width, *height};
+}
+
+int parse_margin(const std::string& text) {
+    constexpr int everything = 1 << 16;
+    if (text == "none" || text == "all")
+        return text == "none" ? 0 : everything;
+    if (const std::optional<int> texels = whole_number(text); texels && *texels >= 0)
+        return *texels;
+    throw InputError(fmt::format("takes a number of texels, none or all, not '{}'", text));
+}
+
+}
+
+bool is_map(const std::string& output) {
+    return extension(output) == ".png" || extension(output) == ".exr";
+}
+
+void add_map_options(CLI::App& verb, MapRequest& request) {
+    verb.add_option_function<std::string>(
+            "--size",
+            [&request](const std::string& text) {
+                std::tie(request.map.width, request.map.height) = parse_size(text);
+                request.given = true;
+            },
+            "Texels of a map along each side: N, or WxH")
+        ->check(parsable(parse_size))
+        ->type_name("SIZE")
+        ->default_str("2048");
+    verb.add_option_function<int>(
+            "--subsamples",
+            [&request](int count) {
+                request.map.subsamples = count;
+                request.given = true;
+            },
+            "Samples along each side of a texel, for smooth borders: 4 means 16 samples")
+        ->check(CLI::Range(1, 8).description(""))
+        ->type_name("N")
+        ->default_str("1");
+    verb.add_option_function<std::string>(
+            "--margin",
+            [&request](const std::string& text) {
+                request.map.margin = parse_margin(text);
+                request.given = true;
+            },
+            "Texels to fill around each island of a map: a number, none or all. Default: 1/128 of the size")
+        ->check(parsable(parse_margin))
+        ->type_name("TEXELS");
+    add_choice<MapDepth>(
+        verb, "--depth", request.files.depth,
+        {{"8", MapDepth::eight}, {"16", MapDepth::sixteen}, {"half", MapDepth::half}, {"float", MapDepth::single}},
+        "Values of a map: 8 or 16 bits in a png, half or float in an exr. Default: 8, half")
+        ->type_name("DEPTH");
+}
+
+std::string summary_of(const Baked& baked, const BakedMaps& maps) {
+    return fmt::format("{} of {} texels of {} x {}{}", names_of(baked.attributes), grouped(maps.texels), maps.width,
+                       maps.height, maps.tiles.size() > 1 ? fmt::format(" in {} tiles", maps.tiles.size()) : "");
+}
+
+}

@@ -1,0 +1,25 @@
+/// Texture maps as output of `bake`: the options, and what is printed about them.
+#pragma once
+
+#include "options.h"
+
+#include "alcove/maps/maps.h"
+
+namespace alcove::cli {
+
+struct MapRequest {
+    MapOptions map;
+    MapFileOptions files;
+    bool given = false; ///< whether an option for maps was used
+};
+
+/// Whether the name of an output ends in .png or .exr.
+bool is_map(const std::string& output);
+
+/// Adds --size, --subsamples, --margin and --depth.
+void add_map_options(CLI::App& verb, MapRequest& request);
+
+/// "ao of 306,123 texels of 2048 x 2048".
+std::string summary_of(const Baked& baked, const BakedMaps& maps);
+
+}

@@ -1,0 +1,129 @@
+#include "alcove/maps/detail/uv_faces.h"
+
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/detail/corner_normals.h"
+#include "alcove/mesh/triangulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace alcove {
+namespace {
+
+constexpr int first_udim = 1001, udims_per_row = 10, udim_rows = 10;
+
+std::vector<std::array<Vec3, 3>> normals_of(const Mesh& mesh, std::span<const Triangle> triangles,
+                                            NormalSource source) {
+    if (source == NormalSource::automatic)
+        return corner_normals(mesh, triangles);
+    if (source == NormalSource::file) {
+        if (mesh.normals.empty())
+            throw InputError("--normals file needs normals in the file: use --normals auto");
+        return corner_normals(mesh, triangles);
+    }
+    const std::vector<Vec3> of_vertices = source == NormalSource::angle ? angle_weighted_normals(mesh, triangles)
+                                                                        : area_weighted_normals(mesh, triangles);
+    std::vector<std::array<Vec3, 3>> normals;
+    for (const Triangle& t : triangles)
+        normals.push_back({of_vertices[t[0]], of_vertices[t[1]], of_vertices[t[2]]});
+    return normals;
+}
+
+bool is_usable(const UvTriangle& uvs) {
+    return std::all_of(uvs.begin(), uvs.end(), [](const Vec2& uv) {
+        return std::fabs(uv.x) <= furthest_uv && std::fabs(uv.y) <= furthest_uv; // false for NaN
+    });
+}
+
+double area_of(const UvTriangle& uvs) {
+    const glm::dvec2 a(uvs[0]), b(uvs[1]), c(uvs[2]);
+    return std::fabs((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+}
+
+struct UvBox {
+    Vec2 low, high;
+
+    explicit UvBox(const UvTriangle& uvs)
+        : low(glm::min(glm::min(uvs[0], uvs[1]), uvs[2])), high(glm::max(glm::max(uvs[0], uvs[1]), uvs[2])) {}
+};
+
+}
+
+UvFaces::UvFaces(const Mesh& mesh, NormalSource source) : mesh_(mesh) {
+    if (mesh.vertex_uvs.empty() && mesh.corner_uvs.empty())
+        throw InputError((mesh.name.empty() ? "" : mesh.name + ": ") +
+                         "has no texture coordinates (UVs), which a texture map needs: unwrap it first, or bake to "
+                         "vertices (-o OUT.ply), with --tessellate auto where faces are large");
+    const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    const std::vector<Triangle> corners = corners_of_triangles(mesh);
+    const std::vector<std::uint32_t> faces = faces_of_triangles(mesh);
+    const std::vector<std::array<Vec3, 3>> normals = normals_of(mesh, triangles, source);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        UvTriangle uvs;
+        for (std::size_t k = 0; k < 3; ++k)
+            uvs[k] = mesh.corner_uvs.empty() ? mesh.vertex_uvs[triangles[t][k]] : mesh.corner_uvs[corners[t][k]];
+        if (!is_usable(uvs)) {
+            ++unusable_;
+        } else if (!(area_of(uvs) > 0.0)) {
+            ++flat_;
+        } else {
+            uvs_.push_back(uvs);
+            faces_.push_back(faces[t]);
+            vertices_.push_back(triangles[t]);
+            normals_.push_back(normals[t]);
+        }
+    }
+}
+
+SurfacePoint UvFaces::point(std::uint32_t triangle, const Vec3d& weights) const {
+    SurfacePoint point{.face = faces_[triangle]};
+    Vec3d normal(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        point.position += weights[static_cast<int>(k)] * mesh_.positions[vertices_[triangle][k]];
+        normal += weights[static_cast<int>(k)] * Vec3d(normals_[triangle][k]);
+    }
+    point.normal = unit_or_zero(normal);
+    return point;
+}
+
+std::vector<int> UvFaces::tiles(bool udim) const {
+    if (!udim)
+        return {first_udim};
+    std::set<int> numbers;
+    for (const UvTriangle& uvs : uvs_) {
+        const UvBox box(uvs);
+        // A triangle that ends at the border of a tile does not reach the next.
+        const auto first = glm::ivec2(glm::floor(glm::max(box.low, 0.0f))), last = glm::ivec2(glm::ceil(box.high)) - 1;
+        for (int v = first.y; v <= std::min(last.y, udim_rows - 1); ++v)
+            for (int u = first.x; u <= std::min(last.x, udims_per_row - 1); ++u)
+                numbers.insert(first_udim + u + udims_per_row * v);
+    }
+    return {numbers.begin(), numbers.end()};
+}
+
+std::vector<std::string> UvFaces::warnings(bool udim) const {
+    const Vec2 most = udim ? Vec2(udims_per_row, udim_rows) : Vec2(1.0f);
+    std::size_t outside = 0;
+    for (const UvTriangle& uvs : uvs_) {
+        const UvBox box(uvs);
+        constexpr float rounding = 1e-5f;
+        outside += box.low.x < -rounding || box.low.y < -rounding || box.high.x > most.x + rounding ||
+                   box.high.y > most.y + rounding;
+    }
+    std::vector<std::string> warnings;
+    if (outside > 0)
+        warnings.push_back(fmt::format("{} partly or wholly outside the texture, and those parts are not baked{}",
+                                       counted(outside, "triangle lies", "triangles lie"),
+                                       udim ? "" : ": put <UDIM> into the output's name to bake several tiles"));
+    if (unusable_ > 0)
+        warnings.push_back(counted(unusable_, "triangle has", "triangles have") +
+                           " texture coordinates that are not finite or are far outside the texture; not baked");
+    if (flat_ > 0)
+        warnings.push_back(counted(flat_, "triangle has", "triangles have") + " no area in UV space; not baked");
+    return warnings;
+}
+
+}

@@ -1,0 +1,37 @@
+/// The triangles of a mesh in UV space and on the surface.
+#pragma once
+
+#include "alcove/bake/bake.h"
+#include "alcove/maps/detail/rasterize.h"
+#include "alcove/mesh/mesh.h"
+#include "alcove/mesh/normals.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+/// The triangles with usable UVs. Const use is thread-safe.
+class UvFaces {
+  public:
+    /// \throw InputError if the mesh has no UVs.
+    UvFaces(const Mesh& mesh, NormalSource normals);
+
+    std::span<const UvTriangle> uvs() const { return uvs_; }
+    SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
+    /// The numbers of the UDIM tiles that triangles reach, in ascending order; only 1001 without `udim`.
+    std::vector<int> tiles(bool udim) const;
+    /// What was left out, and what lies outside of the tiles.
+    std::vector<std::string> warnings(bool udim) const;
+
+  private:
+    const Mesh& mesh_;
+    std::vector<UvTriangle> uvs_;
+    std::vector<std::uint32_t> faces_;
+    std::vector<Triangle> vertices_;
+    std::vector<std::array<Vec3, 3>> normals_;
+    std::size_t unusable_ = 0, flat_ = 0; // triangles with UVs that are not finite or far away, or without area
+};
+
+}

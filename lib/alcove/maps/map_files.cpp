@@ -1,0 +1,138 @@
+#include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/types.h"
+#include "alcove/maps/maps.h"
+#include "alcove/render/detail/exr_file.h"
+#include "alcove/render/detail/png_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace alcove {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view udim_mark = "<UDIM>";
+
+std::string extension_of(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+fs::path of_tile(const fs::path& file, int udim) {
+    std::string name = file.filename().string();
+    if (const std::size_t at = name.find(udim_mark); at != std::string::npos)
+        name.replace(at, udim_mark.size(), std::to_string(udim));
+    return file.parent_path() / name;
+}
+
+/// The file of an attribute: the given one for ao or a single attribute.
+fs::path of_attribute(const fs::path& file, std::string_view attribute, bool single) {
+    if (single || attribute == "ao")
+        return file;
+    std::string stem = file.stem().string();
+    const std::size_t at = stem.find(udim_mark); // NAME.<UDIM>.png becomes NAME_attribute.<UDIM>.png
+    const std::size_t mark = at == std::string::npos ? stem.size() : at > 0 && stem[at - 1] == '.' ? at - 1 : at;
+    stem.insert(mark, fmt::format("_{}", attribute));
+    return file.parent_path() / (stem + file.extension().string());
+}
+
+/// A value of a layer as it is in a PNG, in [0, 1].
+float shown(const MapLayer& layer, float value, double thickest) {
+    if (layer.channel == Channel::thickness)
+        return static_cast<float>(value / thickest);
+    return layer.channel == Channel::bent_normal ? 0.5f + 0.5f * value : value;
+}
+
+std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {
+    const auto most = static_cast<float>((1 << bits) - 1);
+    std::vector<std::uint16_t> values(layer.values.size());
+    std::transform(layer.values.begin(), layer.values.end(), values.begin(), [&](float value) {
+        return static_cast<std::uint16_t>(
+            std::lround(most * std::clamp(shown(layer, value, maps.thickest), 0.0f, 1.0f)));
+    });
+    return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.channel).components), bits, values);
+}
+
+std::vector<fs::path> write_pngs(const BakedMaps& maps, const MapTile& tile, const fs::path& file, int bits) {
+    std::vector<fs::path> written;
+    for (const MapLayer& layer : tile.layers) {
+        const fs::path path = of_tile(of_attribute(file, info(layer.channel).name, tile.layers.size() == 1), tile.udim);
+        AtomicFile target(path);
+        target.write(encoded(maps, layer, bits));
+        target.commit();
+        written.push_back(path);
+    }
+    return written;
+}
+
+/// The name of a layer in an .exr: "AO", "BentNormal".
+std::string layer_name(Channel channel) {
+    if (channel == Channel::ao)
+        return "AO";
+    std::string name;
+    bool starts_word = true;
+    for (const char c : info(channel).name) {
+        if (c != '_')
+            name += starts_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+        starts_word = c == '_';
+    }
+    return name;
+}
+
+void write_exr(const BakedMaps& maps, const MapTile& tile, const fs::path& file, Precision precision) {
+    std::vector<float> alpha(tile.coverage.size());
+    std::transform(tile.coverage.begin(), tile.coverage.end(), alpha.begin(),
+                   [](Coverage coverage) { return coverage == Coverage::background ? 0.0f : 1.0f; });
+    std::vector<ExrChannel> channels{{"A", alpha.data(), 1, precision}};
+    for (const MapLayer& layer : tile.layers) {
+        const std::size_t components = info(layer.channel).components;
+        const auto add = [&](const std::string& prefix, std::string_view names) {
+            for (std::size_t c = 0; c < 3; ++c)
+                channels.push_back(
+                    {prefix + names[c], layer.values.data() + (components == 3 ? c : 0), components, precision});
+        };
+        if (&layer == &tile.layers.front())
+            add("", "RGB");
+        add(layer_name(layer.channel) + ".", components == 3 ? "XYZ" : "RGB");
+    }
+    ImageHeader header;
+    header.software = "alcove " ALCOVE_VERSION;
+    header.comments = fmt::format("ambient occlusion by {}, radius {:.6g}", maps.baked.method, maps.baked.radius);
+    write_exr_file(maps.width, maps.height, channels, header, false, file);
+}
+
+}
+
+void check(const MapFileOptions& options, const fs::path& file) {
+    const std::string extension = extension_of(file);
+    const MapDepth depth = options.depth;
+    if (extension != ".png" && extension != ".exr")
+        throw InputError(file.string() + ": maps are written as .png or .exr: use one of these extensions");
+    if (extension == ".png" && (depth == MapDepth::half || depth == MapDepth::single))
+        throw InputError("--depth half and float are for .exr: a .png has 8 or 16 bits");
+    if (extension == ".exr" && (depth == MapDepth::eight || depth == MapDepth::sixteen))
+        throw InputError("--depth 8 and 16 are for .png: an .exr has half or float values");
+}
+
+std::vector<fs::path> write_maps(const BakedMaps& maps, const fs::path& file, const MapFileOptions& options) {
+    check(options, file);
+    std::vector<fs::path> written;
+    for (const MapTile& tile : maps.tiles)
+        if (extension_of(file) == ".png") {
+            for (fs::path& path : write_pngs(maps, tile, file, options.depth == MapDepth::sixteen ? 16 : 8))
+                written.push_back(std::move(path));
+        } else {
+            written.push_back(of_tile(file, tile.udim));
+            write_exr(maps, tile, written.back(),
+                      options.depth == MapDepth::single ? Precision::single : Precision::half);
+        }
+    return written;
+}
+
+}

@@ -1,0 +1,121 @@
+/// write_maps(): what other programs read.
+#include "alcove/maps/maps.h"
+#include "alcove/render/image.h"
+
+#include "scratch_folder.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <algorithm>
+
+namespace alcove {
+namespace {
+
+/// A map of 3 × 2 texels, the last of which is background.
+BakedMaps small_maps() {
+    BakedMaps maps;
+    maps.width = 3;
+    maps.height = 2;
+    maps.thickest = 2.0;
+    maps.tiles.push_back(
+        {1001,
+         {{Channel::ao, {0.0f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}},
+          {Channel::bent_normal, {0, 0, 1, 0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, 0, 0}},
+          {Channel::thickness, {0.0f, 0.5f, 1.0f, 1.5f, 2.0f, 0.0f}}},
+         {Coverage::face, Coverage::face, Coverage::face, Coverage::face, Coverage::margin, Coverage::background}});
+    return maps;
+}
+
+struct Png {
+    png_uint_32 width = 0, height = 0;
+    int depth = 0, color_type = 0;
+    bool has_srgb = false, has_gamma = false;
+    std::vector<int> values;
+};
+
+Png read_png(const std::filesystem::path& file) {
+    Png result;
+    std::FILE* stream = std::fopen(file.c_str(), "rb");
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, stream);
+    png_read_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+    png_get_IHDR(png, info, &result.width, &result.height, &result.depth, &result.color_type, nullptr, nullptr,
+                 nullptr);
+    result.has_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
+    result.has_gamma = png_get_valid(png, info, PNG_INFO_gAMA) != 0;
+    png_bytepp rows = png_get_rows(png, info);
+    const auto bytes = static_cast<std::size_t>(result.depth / 8);
+    for (png_uint_32 y = 0; y < result.height; ++y)
+        for (std::size_t i = 0; i < png_get_rowbytes(png, info); i += bytes)
+            result.values.push_back(bytes == 1 ? rows[y][i] : 256 * rows[y][i] + rows[y][i + 1]);
+    png_destroy_read_struct(&png, &info, nullptr);
+    std::fclose(stream);
+    return result;
+}
+
+TEST(MapFiles, PngsHoldLinearValuesWithoutAColourSpace) {
+    const ScratchFolder folder;
+    const auto files = write_maps(small_maps(), folder / "map.png");
+    ASSERT_EQ(files.size(), 3u);
+    EXPECT_EQ(files[0].filename(), "map.png");
+    EXPECT_EQ(files[1].filename(), "map_bent_normal.png");
+    EXPECT_EQ(files[2].filename(), "map_thickness.png");
+    const Png ao = read_png(files[0]), bent = read_png(files[1]), thickness = read_png(files[2]);
+    EXPECT_EQ(ao.width, 3u);
+    EXPECT_EQ(ao.height, 2u);
+    EXPECT_FALSE(ao.has_srgb || ao.has_gamma);
+    EXPECT_EQ(ao.color_type, PNG_COLOR_TYPE_GRAY);
+    EXPECT_EQ(ao.values, (std::vector<int>{0, 51, 102, 153, 204, 255}));
+    EXPECT_EQ(bent.color_type, PNG_COLOR_TYPE_RGB);
+    EXPECT_EQ(std::vector<int>(bent.values.begin(), bent.values.begin() + 3), (std::vector<int>{128, 128, 255}));
+    EXPECT_EQ(thickness.values, (std::vector<int>{0, 64, 128, 191, 255, 0}));
+}
+
+TEST(MapFiles, SixteenBits) {
+    const ScratchFolder folder;
+    const auto files = write_maps(small_maps(), folder / "map.png", {.depth = MapDepth::sixteen});
+    const Png ao = read_png(files[0]);
+    EXPECT_EQ(ao.depth, 16);
+    EXPECT_EQ(ao.values, (std::vector<int>{0, 13107, 26214, 39321, 52428, 65535}));
+}
+
+TEST(MapFiles, AnExrHasALayerPerAttribute) {
+    const ScratchFolder folder;
+    for (const MapDepth depth : {MapDepth::automatic, MapDepth::single}) {
+        const auto files = write_maps(small_maps(), folder / "map.exr", {.depth = depth});
+        ASSERT_EQ(files.size(), 1u);
+        const ImageSummary summary = summarize_image(files[0]);
+        EXPECT_EQ(summary.width, 3);
+        for (const char* name : {"R", "G", "B", "A", "AO.R", "BentNormal.X", "BentNormal.Z", "Thickness.G"}) {
+            const auto found = std::find_if(summary.channels.begin(), summary.channels.end(),
+                                            [&](const ImageSummary::Channel& c) { return c.name == name; });
+            ASSERT_NE(found, summary.channels.end()) << name;
+            EXPECT_EQ(found->type, depth == MapDepth::single ? "float" : "half");
+        }
+    }
+}
+
+TEST(MapFiles, TilesHaveTheirNumberInTheName) {
+    const ScratchFolder folder;
+    BakedMaps maps = small_maps();
+    maps.tiles.push_back(maps.tiles[0]);
+    maps.tiles[1].udim = 1012;
+    const auto files = write_maps(maps, folder / "map.<UDIM>.png");
+    ASSERT_EQ(files.size(), 6u);
+    EXPECT_EQ(files[0].filename(), "map.1001.png");
+    EXPECT_EQ(files[1].filename(), "map_bent_normal.1001.png");
+    EXPECT_EQ(files[3].filename(), "map.1012.png");
+}
+
+TEST(MapFiles, DepthsOfTheOtherFormatAndOtherExtensionsAreRefused) {
+    const ScratchFolder folder;
+    EXPECT_THROW(write_maps(small_maps(), folder / "map.png", {.depth = MapDepth::half}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "map.exr", {.depth = MapDepth::eight}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "map.jpg"), InputError);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
+}
+
+}
+}
