@@ -86,7 +86,8 @@ class TargetBake {
           occluders_(target, surroundings, task.keep_grid, progress) {}
 
     TargetResult run() {
-        find_contacts();
+        if (!is_dense())
+            find_contacts();
         if (!task_.error)
             bake_with_fixed_settings();
         else if (!task_.method || is_planned(*task_.method))
@@ -114,13 +115,34 @@ class TargetBake {
         const RaySurface& rays = occluders_.rays();
         Stopwatch watch;
         alcove::find_contacts(target_.surfels, rays, ray_offset(target_.radius), target_.is_own_face);
-        contacts_ = static_cast<std::size_t>(std::count_if(target_.surfels.begin(), target_.surfels.end(),
-                                                           [](const Surfel& s) { return s.away != Vec3(0.0f); }));
+        contacts_ = count_contacts(target_.surfels);
+        has_all_contacts_ = true;
         result_.seconds.grid += watch.lap();
     }
 
+    static std::size_t count_contacts(std::span<const Surfel> surfels) {
+        return static_cast<std::size_t>(
+            std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return s.away != Vec3(0.0f); }));
+    }
+
+    /// Finds the contacts of copies of some surfels.
+    void find_contacts(std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
+        if (has_all_contacts_)
+            return;
+        alcove::find_contacts(
+            surfels, occluders_.rays(), ray_offset(target_.radius),
+            [&](std::size_t i, const Triangle& triangle) { return target_.is_own_face(indices[i], triangle); });
+    }
+
+    /// Whether most surfels may be interpolated, so that their contacts need not be known.
+    bool is_dense() const {
+        constexpr std::size_t many_surfels = 100'000;
+        return has_pilot() && task_.error && (!task_.method || is_planned(*task_.method)) &&
+               target_.surfels.size() >= many_surfels;
+    }
+
     OccluderNeeds needs_of(const Method& method, ChannelSet wanted) const {
-        return alcove::needs_of(method, wanted, contacts_ > 0);
+        return alcove::needs_of(method, wanted, !has_all_contacts_ || contacts_ > 0);
     }
 
     static bool is_planned(const Method& method) {
@@ -147,10 +169,21 @@ class TargetBake {
             Stopwatch watch;
             PilotOptions share = options;
             share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
+            if (!has_all_contacts_)
+                find_contacts_of_sample(evenly(order(), share.surfels));
             pilot_.emplace(target_.surfels, order(), rays, target_.radius, share);
             result_.seconds.pilot += watch.lap();
         }
         return *pilot_;
+    }
+
+    /// Finds the contacts of the surfels that the pilot samples, and estimates the number of all.
+    void find_contacts_of_sample(const std::vector<std::uint32_t>& indices) {
+        std::vector<Surfel> some = pick(target_.surfels, indices);
+        find_contacts(indices, some);
+        for (std::size_t i = 0; i < indices.size(); ++i)
+            target_.surfels[indices[i]] = some[i];
+        contacts_ = count_contacts(some) * target_.surfels.size() / std::max<std::size_t>(some.size(), 1);
     }
 
     Settings settings_of(const MethodChoice& choice) const {
@@ -181,14 +214,18 @@ class TargetBake {
     }
 
     /// Whether interpolation pays on a small sample.
-    bool is_dense(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
+    bool pays(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
         constexpr std::size_t runs = 8, length = 2048;
         const std::vector<MethodRun> methods = runs_for(*plan.choice.method, settings_of(plan.choice), Channel::ao);
         const Occluders occluders = occluders_.get(needs_of(*plan.choice.method, task_.attributes), largest_voxel);
         Stopwatch watch;
-        const std::vector<Surfel> some = pick(target_.surfels, runs_of_surfels(runs, length));
+        const std::vector<std::uint32_t> sample = runs_of_surfels(runs, length);
+        const std::vector<Surfel> some = pick(target_.surfels, sample);
+        const auto prepare = [&](std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
+            find_contacts(pick(sample, indices), surfels);
+        };
         const auto interpolated =
-            evaluate_interpolated(some, spatial_order(some), occluders, methods.front(), interpolation);
+            evaluate_interpolated(some, spatial_order(some), occluders, methods.front(), interpolation, prepare);
         result_.seconds.occlusion += watch.lap();
         return interpolated.has_value();
     }
@@ -204,9 +241,12 @@ class TargetBake {
         if (progress_)
             progress = [&](double done) { progress_("baking", done); };
         const std::vector<MethodRun> runs = runs_for(method, settings, task_.attributes);
+        const auto prepare = [&](std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
+            find_contacts(indices, surfels);
+        };
         Stopwatch watch;
         std::optional<InterpolatedValues> interpolated =
-            evaluate_interpolated(target_.surfels, order(), occluders, runs.front(), interpolation, progress);
+            evaluate_interpolated(target_.surfels, order(), occluders, runs.front(), interpolation, prepare, progress);
         result_.seconds.occlusion += watch.lap();
         if (!interpolated)
             return {};
@@ -234,17 +274,18 @@ class TargetBake {
     /// Interpolates most of many surfels if that is expected to be faster than the plan for all of them, and meets the
     /// error.
     bool bake_interpolated(const PlanRequest& request, const Pilot& pilot, double seconds_of_all) {
-        constexpr std::size_t many_surfels = 100'000;
         constexpr double usual_share = 0.15, max_share = 0.4, clearly_faster = 0.8;
         constexpr double seconds_per_surfel = 1.2e-7; // of the interpolation, on the machine of the planner's table
-        if (request.surfels < many_surfels || pilot.empty())
+        if (!is_dense() || pilot.empty())
             return false;
         const auto surfels = static_cast<double>(request.surfels);
         PlanRequest some = request;
         some.surfels = static_cast<std::size_t>(usual_share * surfels);
         some.contacts = static_cast<std::size_t>(usual_share * static_cast<double>(request.contacts));
         Planner planner(some, pilot);
-        for (Interpolation interpolation{16, static_cast<float>(1.5 * request.error), max_share};
+        constexpr double very_many_surfels = 1e6;
+        const std::size_t stride = surfels < very_many_surfels ? 16 : 64;
+        for (Interpolation interpolation{stride, static_cast<float>(1.5 * request.error), max_share};
              interpolation.stride > 1; interpolation.stride /= 4, interpolation.tolerance /= 2.0f) {
             const Plan plan = planner.expected();
             if (plan.seconds + seconds_per_surfel * surfels > clearly_faster * seconds_of_all)
@@ -252,7 +293,7 @@ class TargetBake {
             check_time(task_.deadline, plan, some, pilot);
             try {
                 const float voxel = request.has_grid ? GridOptions{}.largest_voxel : plan.largest_voxel;
-                if (!is_dense(plan, interpolation, voxel))
+                if (!pays(plan, interpolation, voxel))
                     return false;
                 const std::optional<double> rmse = interpolate(plan, interpolation, voxel);
                 if (!rmse || *rmse <= request.error)
@@ -342,6 +383,8 @@ class TargetBake {
         Planner planner(request, pilot);
         if (bake_interpolated(request, pilot, planner.expected().seconds))
             return;
+        if (!has_all_contacts_)
+            find_contacts();
         for (;;) {
             check_time(task_.deadline, planner.expected(), request, pilot);
             const Plan plan = planner.next();
@@ -431,7 +474,8 @@ class TargetBake {
     Surroundings& surroundings_;
     const BakeProgress& progress_;
     TargetOccluders occluders_;
-    std::size_t contacts_ = 0;         // surfels that touch other faces
+    std::size_t contacts_ = 0; // surfels that touch other faces; estimated until all contacts are known
+    bool has_all_contacts_ = false;
     std::vector<std::uint32_t> order_; // see order()
     std::optional<Pilot> pilot_;
     std::vector<std::uint32_t> sample_; // see rmse_on_sample()

@@ -194,13 +194,17 @@ Vec3d weights_at(const UvTriangle& triangle, const UvTile& tile, std::size_t tex
     std::array<Vec3d, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
         p[k] = Vec3d(pixel_of(triangle[k], tile), 0.0);
-    const Vec3d nearest = centre - closest_on_triangle(p[0], p[1], p[2], centre).offset;
     const auto area = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
         return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     };
-    const double whole = area(p[0], p[1], p[2]);
-    const Vec3d weights =
-        glm::max(Vec3d(area(p[1], p[2], nearest), area(p[2], p[0], nearest), area(p[0], p[1], nearest)) / whole, 0.0);
+    const double per_area = 1.0 / area(p[0], p[1], p[2]);
+    const auto at = [&](const Vec3d& point) {
+        return per_area * Vec3d(area(p[1], p[2], point), area(p[2], p[0], point), area(p[0], p[1], point));
+    };
+    const Vec3d inside = at(centre);
+    if (inside.x >= 0.0 && inside.y >= 0.0 && inside.z >= 0.0)
+        return inside;
+    const Vec3d weights = glm::max(at(centre - closest_on_triangle(p[0], p[1], p[2], centre).offset), 0.0);
     return weights / (weights.x + weights.y + weights.z);
 }
 

@@ -70,17 +70,21 @@ struct Sources {
 class Interpolator {
   public:
     Interpolator(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const MethodRun& run,
-                 const Occluders& occluders, const Interpolation& interpolation, const Progress& progress)
-        : run_(run), occluders_(occluders), interpolation_(interpolation), progress_(progress),
+                 const Occluders& occluders, const Interpolation& interpolation, const PrepareSurfels& prepare,
+                 const Progress& progress)
+        : run_(run), occluders_(occluders), interpolation_(interpolation), prepare_(prepare), progress_(progress),
           used_(run.wanted.has(Channel::bent_normal) ? 4 : 1), ranks_(order.size()) {
         reserve_huge(surfels_, order.size());
+        reserve_huge(indices_, order.size());
         constexpr std::size_t ahead = 32;
         for (std::size_t i = 0; i < order.size(); ++i) {
             if (i + ahead < order.size())
                 __builtin_prefetch(&surfels[order[i + ahead]]);
             const Surfel& surfel = surfels[order[i]];
-            if (surfels_.empty() || !is_same(surfel, surfels_.back()))
+            if (surfels_.empty() || !is_same(surfel, surfels_.back())) {
                 surfels_.push_back(surfel);
+                indices_.push_back(order[i]);
+            }
             ranks_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
         }
         values_.resize(surfels_.size());
@@ -122,7 +126,13 @@ class Interpolator {
     }
 
     void evaluate_at(const std::vector<std::uint32_t>& chosen) {
-        const std::vector<Surfel> some = pick(surfels_, chosen);
+        std::vector<Surfel> some = pick(surfels_, chosen);
+        if (prepare_) {
+            std::vector<std::uint32_t> indices;
+            for (const std::uint32_t i : chosen)
+                indices.push_back(indices_[i]);
+            prepare_(indices, some);
+        }
         std::vector<std::uint32_t> order(some.size());
         std::iota(order.begin(), order.end(), 0u);
         Progress progress;
@@ -146,7 +156,7 @@ class Interpolator {
     void interpolate() {
         Sources sources;
         for (std::uint32_t i = 0; i < surfels_.size(); ++i)
-            if (states_[i] == State::evaluated && !surfels_[i].covered) {
+            if (states_[i] == State::evaluated) {
                 sources.surfels.push_back(surfels_[i]);
                 sources.values.push_back(values_[i]);
                 sources.ranks.push_back(i);
@@ -220,10 +230,12 @@ class Interpolator {
     const MethodRun& run_;
     const Occluders& occluders_;
     const Interpolation& interpolation_;
+    const PrepareSurfels& prepare_;
     const Progress& progress_;
-    std::size_t used_;                 // values per surfel
-    std::vector<std::uint32_t> ranks_; // index into surfels_ by rank in the order
-    std::vector<Surfel> surfels_;      // along the curve, those with equal position and normal merged
+    std::size_t used_;                   // values per surfel
+    std::vector<std::uint32_t> ranks_;   // index into surfels_ by rank in the order
+    std::vector<Surfel> surfels_;        // along the curve, those with equal position and normal merged
+    std::vector<std::uint32_t> indices_; // of the first of each among those given
     HugeVector<SurfelValues> values_;
     std::vector<State> states_;
     std::size_t evaluated_ = 0;
@@ -234,8 +246,9 @@ class Interpolator {
 std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels,
                                                         std::span<const std::uint32_t> order,
                                                         const Occluders& occluders, const MethodRun& run,
-                                                        const Interpolation& interpolation, const Progress& progress) {
-    Interpolator interpolator(surfels, order, run, occluders, interpolation, progress);
+                                                        const Interpolation& interpolation,
+                                                        const PrepareSurfels& prepare, const Progress& progress) {
+    Interpolator interpolator(surfels, order, run, occluders, interpolation, prepare, progress);
     InterpolatedValues result;
     if (!interpolator.run())
         return {};

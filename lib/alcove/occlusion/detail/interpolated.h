@@ -3,6 +3,10 @@
 
 #include "alcove/occlusion/catalog.h"
 
+#include <functional>
+#include <optional>
+#include <span>
+
 namespace alcove {
 
 /// Where to evaluate. A method is evaluated at every `stride`-th surfel along the Morton curve. Where its ao deviates
@@ -19,12 +23,19 @@ struct InterpolatedValues {
     double share = 1.0; ///< of the surfels with a normal, at which the method was evaluated
 };
 
-/// Evaluates the channels of a run, which may be ao and the bent normal. `order` is the spatial_order() of the surfels. Covered surfels are
-/// not interpolated. Surfels with the same position and normal get the same values. The values depend neither on the number of
-/// threads nor on the order of the surfels. \return std::nullopt if more than `max_share` of the surfels would have to
-/// be evaluated. Cost: the method at a share of the surfels, and about 0.1 µs per surfel.
-std::optional<InterpolatedValues>
-evaluate_interpolated(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const Occluders& occluders,
-                      const MethodRun& run, const Interpolation& interpolation, const Progress& progress = {});
+/// Completes surfels before they are evaluated, such as by their contacts; `indices` are theirs among all.
+using PrepareSurfels = std::function<void(std::span<const std::uint32_t> indices, std::span<Surfel> surfels)>;
+
+/// Evaluates the channels of a run, which may be ao and the bent normal. `order` is the spatial_order() of the surfels.
+/// Surfels that are known to be covered are not interpolated. Surfels with the same position and normal get the same
+/// values. The values depend neither on the number of threads nor on the order of the surfels. \return std::nullopt if
+/// more than `max_share` of the surfels would have to be evaluated. Cost: the method at a share of the surfels, and
+/// about 0.1 µs per surfel.
+std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels,
+                                                        std::span<const std::uint32_t> order,
+                                                        const Occluders& occluders, const MethodRun& run,
+                                                        const Interpolation& interpolation,
+                                                        const PrepareSurfels& prepare = {},
+                                                        const Progress& progress = {});
 
 }

@@ -12,12 +12,25 @@ std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::siz
     return chosen;
 }
 
-std::vector<Surfel> pick(std::span<const Surfel> surfels, std::span<const std::uint32_t> indices) {
-    std::vector<Surfel> picked;
+namespace {
+
+template <class T>
+std::vector<T> picked(std::span<const T> items, std::span<const std::uint32_t> indices) {
+    std::vector<T> picked;
     picked.reserve(indices.size());
     for (const std::uint32_t i : indices)
-        picked.push_back(surfels[i]);
+        picked.push_back(items[i]);
     return picked;
+}
+
+}
+
+std::vector<Surfel> pick(std::span<const Surfel> surfels, std::span<const std::uint32_t> indices) {
+    return picked(surfels, indices);
+}
+
+std::vector<std::uint32_t> pick(std::span<const std::uint32_t> items, std::span<const std::uint32_t> indices) {
+    return picked(items, indices);
 }
 
 }

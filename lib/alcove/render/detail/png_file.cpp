@@ -38,7 +38,7 @@ bool encode(Encoder& encoder, png_structp png, png_infop info, int width, int he
     png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
                  color_types[static_cast<std::size_t>(channels) - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(png, 4);
+    png_set_compression_level(png, 3);
     png_write_info(png, info);
     const std::size_t per_row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
     for (std::size_t begin = 0; begin < values.size(); begin += per_row) {
