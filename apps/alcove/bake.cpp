@@ -105,8 +105,10 @@ void check_map_usage(const BakeVerb& verb, const std::string& output) {
 void check_format(const BakeVerb& verb, const std::string& output) {
     if (is_map(output))
         return check_map_usage(verb, output);
-    if (verb.map.given || verb.map.files.depth != MapDepth::automatic)
-        throw UsageError("--size, --subsamples, --margin and --depth are for texture maps: write a .png or .exr");
+    if (verb.map.given())
+        throw UsageError(
+            "--size, --subsamples, --margin, --depth, --space, --flip-green and --pack are for texture maps: "
+            "write a .png or .exr");
     const ChannelSet others = verb.bake.attributes.without(Channel::ao);
     if (extension(output) == ".obj" && !others.empty())
         throw UsageError(output + ": an .obj can store only ao, as colours: write a .ply for " + names_of(others));
@@ -268,6 +270,13 @@ void run(BakeVerb& verb) {
     verb.bake.seed = verb.method.seed.value_or(0);
     verb.bake.up = verb.up.value_or(verb.bake.up);
     verb.bake.keep_grid = !verb.write_grid.empty();
+    if (!verb.map.files.pack.empty()) {
+        ChannelSet packed;
+        for (const PackedChannel& channel : verb.map.files.pack)
+            if (channel.attribute)
+                packed = packed | *channel.attribute;
+        verb.bake.attributes = packed;
+    }
     check_usage(verb);
     const std::vector<BatchFile> files = batch_files(verb.inputs, verb.output);
     for (const BatchFile& file : files)

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <sstream>
 
 namespace alcove::cli {
 namespace {
@@ -28,6 +30,28 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {*width, *height};
 }
 
+/// Names of attributes and numbers, separated by commas.
+std::vector<PackedChannel> parse_pack(const std::string& text) {
+    std::vector<PackedChannel> pack;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');) {
+        const auto* found = std::find_if(channels.begin(), channels.end(),
+                                         [&](const ChannelInfo& channel) { return channel.name == word; });
+        float number = -1.0f;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+        const bool is_number = error == std::errc() && end == word.data() + word.size();
+        if (found == channels.end() && !(is_number && number >= 0.0f && number <= 1.0f))
+            throw InputError(fmt::format(
+                "takes attributes and numbers from 0 to 1, separated by commas, such as ao,thickness,0, not '{}'",
+                word));
+        if (found == channels.end())
+            pack.push_back({{}, number});
+        else
+            pack.push_back({found->channel});
+    }
+    return pack;
+}
+
 int parse_margin(const std::string& text) {
     constexpr int everything = 1 << 16;
     if (text == "none" || text == "all")
@@ -39,6 +63,11 @@ int parse_margin(const std::string& text) {
 
 }
 
+bool MapRequest::given() const {
+    return sized || files.depth != MapDepth::automatic || map.space != MapSpace::tangent || map.flip_green ||
+           !files.pack.empty();
+}
+
 bool is_map(const std::string& output) {
     return extension(output) == ".png" || extension(output) == ".exr";
 }
@@ -48,7 +77,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
             "--size",
             [&request](const std::string& text) {
                 std::tie(request.map.width, request.map.height) = parse_size(text);
-                request.given = true;
+                request.sized = true;
             },
             "Texels of a map along each side: N, or WxH")
         ->check(parsable(parse_size))
@@ -58,7 +87,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
             "--subsamples",
             [&request](int count) {
                 request.map.subsamples = count;
-                request.given = true;
+                request.sized = true;
             },
             "Samples along each side of a texel, for smooth borders: 4 means 16 samples")
         ->check(CLI::Range(1, 8).description(""))
@@ -68,7 +97,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
             "--margin",
             [&request](const std::string& text) {
                 request.map.margin = parse_margin(text);
-                request.given = true;
+                request.sized = true;
             },
             "Texels to fill around each island of a map: a number, none or all. Default: 1/128 of the size")
         ->check(parsable(parse_margin))
@@ -78,6 +107,20 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         {{"8", MapDepth::eight}, {"16", MapDepth::sixteen}, {"half", MapDepth::half}, {"float", MapDepth::single}},
         "Values of a map: 8 or 16 bits in a png, half or float in an exr. Default: 8, half")
         ->type_name("DEPTH");
+    add_choice<MapSpace>(verb, "--space", request.map.space,
+                         {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
+                         "Axes of bent normals in a map: tangent (MikkTSpace) or object (those of the mesh)")
+        ->type_name("SPACE")
+        ->default_str("tangent");
+    verb.add_flag("--flip-green", request.map.flip_green,
+                  "Negate the green channel of bent normals, as DirectX expects");
+    verb.add_option_function<std::string>(
+            "--pack", [&request](const std::string& text) { request.files.pack = parse_pack(text); },
+            "Write one png with these attributes as its channels, such as ao,thickness,convexity. A number fills a "
+            "channel")
+        ->check(parsable(parse_pack))
+        ->excludes(verb.get_option("--attributes"))
+        ->type_name("NAMES");
 }
 
 std::string summary_of(const Baked& baked, const BakedMaps& maps) {

@@ -10,13 +10,15 @@ namespace alcove::cli {
 struct MapRequest {
     MapOptions map;
     MapFileOptions files;
-    bool given = false; ///< whether an option for maps was used
+    bool sized = false; ///< whether --size, --subsamples or --margin was used
+
+    bool given() const; ///< whether any option for maps was used
 };
 
 /// Whether the name of an output ends in .png or .exr.
 bool is_map(const std::string& output);
 
-/// Adds --size, --subsamples, --margin and --depth.
+/// Adds --size, --subsamples, --margin, --depth, --space, --flip-green and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
 /// "ao of 306,123 texels of 2048 x 2048".

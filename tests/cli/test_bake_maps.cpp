@@ -85,6 +85,14 @@ TEST_F(BakeMaps, AttributesAndTilesHaveFilesOfTheirOwn) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "work/a.png"));
 }
 
+TEST_F(BakeMaps, PackedAttributesAreBakedTogether) {
+    write_box("box.obj");
+    ASSERT_EQ(run({"bake", "box.obj", "-o", "p.png", "--size", "32", "--pack", "ao,thickness,convexity"}).code, done);
+    EXPECT_EQ(summarize_image(folder_ / "work/p.png").channels.size(), 3u);
+    EXPECT_EQ(run({"bake", "box.obj", "-o", "p.png", "--pack", "ao,shine"}).code, usage);
+    EXPECT_EQ(run({"bake", "box.obj", "-o", "p.png", "--pack", "ao,bent_normal"}).code, usage);
+}
+
 TEST_F(BakeMaps, AMeshWithoutUvsIsToldTheOtherWays) {
     write_mesh(sphere_mesh(2), folder_ / "work/ball.ply");
     const Outcome outcome = run({"bake", "ball.ply", "-o", "a.png"});
@@ -99,6 +107,8 @@ TEST_F(BakeMaps, OptionsOfTheOtherKindOfOutputAreRefused) {
          std::vector<std::vector<std::string>>{{"-o", "a.ply", "--size", "64"},
                                                {"-o", "a.ply", "--margin", "none"},
                                                {"-o", "a.ply", "--depth", "16"},
+                                               {"-o", "a.ply", "--space", "object"},
+                                               {"-o", "a.ply", "--pack", "ao"},
                                                {"-o", "a.png", "--tessellate", "auto"},
                                                {"-o", "a.png", "--self"},
                                                {"-o", "a.png", "--color", "ao"},

@@ -109,6 +109,19 @@ TEST(MapFiles, TilesHaveTheirNumberInTheName) {
     EXPECT_EQ(files[3].filename(), "map.1012.png");
 }
 
+TEST(MapFiles, AttributesArePackedIntoTheChannelsOfOnePng) {
+    const ScratchFolder folder;
+    const auto files = write_maps(small_maps(), folder / "map.png",
+                                  {.pack = {{Channel::ao}, {{}, 0.0f}, {Channel::thickness}, {{}, 1.0f}}});
+    ASSERT_EQ(files.size(), 1u);
+    const Png png = read_png(files[0]);
+    EXPECT_EQ(png.color_type, PNG_COLOR_TYPE_RGB_ALPHA);
+    EXPECT_EQ(std::vector<int>(png.values.begin() + 4, png.values.begin() + 8), (std::vector<int>{51, 0, 64, 255}));
+    EXPECT_THROW(write_maps(small_maps(), folder / "a.png", {.pack = {{Channel::convexity}}}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "a.png", {.pack = {{Channel::bent_normal}}}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "a.exr", {.pack = {{Channel::ao}}}), InputError);
+}
+
 TEST(MapFiles, DepthsOfTheOtherFormatAndOtherExtensionsAreRefused) {
     const ScratchFolder folder;
     EXPECT_THROW(write_maps(small_maps(), folder / "map.png", {.depth = MapDepth::half}), InputError);

@@ -95,7 +95,7 @@ TEST(Maps, AllAttributesAreBaked) {
                    .method = "exact",
                    .parameters = {{"rays", 256}},
                    .attributes = Channel::ao | Channel::convexity | Channel::bent_normal | Channel::thickness},
-                  {.width = 128, .height = 128});
+                  {.width = 128, .height = 128, .space = MapSpace::object});
     const MapTile& tile = maps.tiles[0];
     ASSERT_EQ(tile.layers.size(), 4u);
     EXPECT_NEAR(maps.thickest, maps.baked.radius, 1e-9);
@@ -107,6 +107,35 @@ TEST(Maps, AllAttributesAreBaked) {
         EXPECT_GE(layer(tile, Channel::convexity).values[i], 0.45f);
         EXPECT_LE(layer(tile, Channel::thickness).values[i], maps.thickest * 1.0001);
     }
+}
+
+TEST(Maps, BentNormalsOfAnOpenSurfaceAreTheNormalInTangentSpace) {
+    // A floor beside a wall at x = 0. The UVs of the floor are turned: u runs along z.
+    Mesh room;
+    room.positions = {{0, 0, -50}, {0, 0, 50}, {100, 0, 50}, {100, 0, -50}, {0, 100, -50}, {0, 100, 50}};
+    room.add_face(std::array<std::uint32_t, 4>{0, 1, 2, 3});
+    room.add_face(std::array<std::uint32_t, 4>{1, 0, 4, 5});
+    room.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}, {3, 1}, {3, 0}};
+    const BakeOptions options{
+        .radius = "20", .method = "exact", .parameters = {{"rays", 1024}}, .attributes = Channel::bent_normal};
+    const auto bent_at = [&](const MapOptions& map, std::size_t row) {
+        const std::vector<float> values = layer(bake_maps(room, options, map).tiles[0], Channel::bent_normal).values;
+        const float* v = &values[3 * (row * 64 + 32)];
+        return Vec3(v[0], v[1], v[2]);
+    };
+    const MapOptions tangent{.width = 64, .height = 64};
+    MapOptions object = tangent, flipped = tangent;
+    object.space = MapSpace::object;
+    flipped.flip_green = true;
+    EXPECT_NEAR(glm::length(bent_at(tangent, 10) - Vec3(0, 0, 1)), 0.0f, 0.02f); // far from the wall
+    EXPECT_NEAR(glm::length(bent_at(object, 10) - Vec3(0, 1, 0)), 0.0f, 0.02f);
+    // The last row is next to the wall: the bent normal leans away from it, along +x, which is +v.
+    const Vec3 near = bent_at(tangent, 63), in_object = bent_at(object, 63);
+    EXPECT_GT(near.y, 0.3f);
+    EXPECT_NEAR(near.x, in_object.z, 1e-3f);
+    EXPECT_NEAR(near.y, in_object.x, 1e-3f);
+    EXPECT_NEAR(near.z, in_object.y, 1e-3f);
+    EXPECT_NEAR(glm::length(bent_at(flipped, 63) - near * Vec3(1, -1, 1)), 0.0f, 1e-6f);
 }
 
 TEST(Maps, SubsamplesAverageAndCoverTheSameTexels) {

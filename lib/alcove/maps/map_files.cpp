@@ -49,23 +49,45 @@ float shown(const MapLayer& layer, float value, double thickest) {
     return layer.channel == Channel::bent_normal ? 0.5f + 0.5f * value : value;
 }
 
-std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {
+std::uint16_t quantized(float value, int bits) {
     const auto most = static_cast<float>((1 << bits) - 1);
+    return static_cast<std::uint16_t>(std::lround(most * std::clamp(value, 0.0f, 1.0f)));
+}
+
+std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {
     std::vector<std::uint16_t> values(layer.values.size());
-    std::transform(layer.values.begin(), layer.values.end(), values.begin(), [&](float value) {
-        return static_cast<std::uint16_t>(
-            std::lround(most * std::clamp(shown(layer, value, maps.thickest), 0.0f, 1.0f)));
-    });
+    std::transform(layer.values.begin(), layer.values.end(), values.begin(),
+                   [&](float value) { return quantized(shown(layer, value, maps.thickest), bits); });
     return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.channel).components), bits, values);
+}
+
+std::string packed(const BakedMaps& maps, const MapTile& tile, std::span<const PackedChannel> pack, int bits) {
+    const std::size_t texels = tile.coverage.size(), channels = pack.size();
+    std::vector<std::uint16_t> values(channels * texels);
+    for (std::size_t c = 0; c < channels; ++c) {
+        const auto layer = std::find_if(tile.layers.begin(), tile.layers.end(), [&](const MapLayer& candidate) {
+            return pack[c].attribute == candidate.channel;
+        });
+        if (pack[c].attribute && layer == tile.layers.end())
+            throw InputError(fmt::format("{} was not baked, so it cannot be packed", info(*pack[c].attribute).name));
+        for (std::size_t i = 0; i < texels; ++i)
+            values[channels * i + c] =
+                quantized(pack[c].attribute ? shown(*layer, layer->values[i], maps.thickest) : pack[c].number, bits);
+    }
+    return encode_png_file(maps.width, maps.height, static_cast<int>(channels), bits, values);
+}
+
+void write_file(const fs::path& file, const std::string& bytes) {
+    AtomicFile target(file);
+    target.write(bytes);
+    target.commit();
 }
 
 std::vector<fs::path> write_pngs(const BakedMaps& maps, const MapTile& tile, const fs::path& file, int bits) {
     std::vector<fs::path> written;
     for (const MapLayer& layer : tile.layers) {
         const fs::path path = of_tile(of_attribute(file, info(layer.channel).name, tile.layers.size() == 1), tile.udim);
-        AtomicFile target(path);
-        target.write(encoded(maps, layer, bits));
-        target.commit();
+        write_file(path, encoded(maps, layer, bits));
         written.push_back(path);
     }
     return written;
@@ -118,14 +140,25 @@ void check(const MapFileOptions& options, const fs::path& file) {
         throw InputError("--depth half and float are for .exr: a .png has 8 or 16 bits");
     if (extension == ".exr" && (depth == MapDepth::eight || depth == MapDepth::sixteen))
         throw InputError("--depth 8 and 16 are for .png: an .exr has half or float values");
+    constexpr std::size_t most_channels = 4;
+    if (!options.pack.empty() && (extension != ".png" || options.pack.size() > most_channels))
+        throw InputError("--pack puts one to four attributes into a .png");
+    for (const PackedChannel& channel : options.pack)
+        if (channel.attribute && info(*channel.attribute).components > 1)
+            throw InputError(
+                fmt::format("--pack takes attributes with one value, not {}", info(*channel.attribute).name));
 }
 
 std::vector<fs::path> write_maps(const BakedMaps& maps, const fs::path& file, const MapFileOptions& options) {
     check(options, file);
     std::vector<fs::path> written;
+    const int bits = options.depth == MapDepth::sixteen ? 16 : 8;
     for (const MapTile& tile : maps.tiles)
-        if (extension_of(file) == ".png") {
-            for (fs::path& path : write_pngs(maps, tile, file, options.depth == MapDepth::sixteen ? 16 : 8))
+        if (!options.pack.empty()) {
+            written.push_back(of_tile(file, tile.udim));
+            write_file(written.back(), packed(maps, tile, options.pack, bits));
+        } else if (extension_of(file) == ".png") {
+            for (fs::path& path : write_pngs(maps, tile, file, bits))
                 written.push_back(std::move(path));
         } else {
             written.push_back(of_tile(file, tile.udim));

@@ -31,6 +31,8 @@ class MapBake {
           width_(static_cast<std::size_t>(options.width)), texels_(width_ * static_cast<std::size_t>(options.height)) {
         maps_.width = options.width;
         maps_.height = options.height;
+        if (has_tangents())
+            faces_.add_tangents();
     }
 
     BakedMaps run() {
@@ -49,6 +51,10 @@ class MapBake {
     }
 
   private:
+    bool has_tangents() const {
+        return options_.space == MapSpace::tangent && bake_.attributes.has(Channel::bent_normal);
+    }
+
     std::size_t components() const {
         std::size_t count = 0;
         for (const ChannelInfo& channel : channels)
@@ -116,6 +122,7 @@ class MapBake {
             }
         });
         Baked baked = bake(mesh_, points, bake_);
+        turn_directions(tile, owners, samples, baked.values[Channel::bent_normal]);
         for (MapLayer& layer : map.layers) {
             const std::size_t components = info(layer.channel).components;
             const std::vector<float>& values = baked[layer.channel];
@@ -126,6 +133,22 @@ class MapBake {
         for (const std::uint32_t sample : samples)
             ++counts[texel_of(sample)];
         merge(std::move(baked), samples.size());
+    }
+
+    /// Into the axes of the options.
+    void turn_directions(const UvTile& tile, const TexelOwners& owners, const std::vector<std::uint32_t>& samples,
+                         std::vector<float>& directions) const {
+        for (std::size_t i = 0; 3 * i < directions.size(); ++i) {
+            float* const d = &directions[3 * i];
+            if (has_tangents()) {
+                const std::uint32_t triangle = owners.triangles[samples[i]];
+                const Vec3 local = faces_.to_tangent(triangle, weights_at(faces_.uvs()[triangle], tile, samples[i]),
+                                                     {d[0], d[1], d[2]});
+                d[0] = local.x, d[1] = local.y, d[2] = local.z;
+            }
+            if (options_.flip_green)
+                d[1] = -d[1];
+        }
     }
 
     /// Keeps the description of the first batch, sums times and errors, and collects warnings.
@@ -173,9 +196,10 @@ class MapBake {
                     take_mean(std::span(layer.values).subspan(components * i, components), counts[i]);
             for (std::size_t i = 0; i < texels_; ++i)
                 for (std::size_t c = 0; c < components && !covered[i]; ++c)
-                    layer.values[components * i + c] = map.coverage[i] == Coverage::margin
-                                                           ? layer.values[components * nearest[i] + c]
-                                                           : channel.missing;
+                    layer.values[components * i + c] =
+                        map.coverage[i] == Coverage::margin           ? layer.values[components * nearest[i] + c]
+                        : components == 3 && c == 2 && has_tangents() ? 1.0f // the normal
+                                                                      : channel.missing;
         }
     }
 

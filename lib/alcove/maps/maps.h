@@ -16,6 +16,12 @@
 
 namespace alcove {
 
+/// The axes of directions in a map.
+enum class MapSpace {
+    tangent, ///< those of the texel: along u, along v, along the normal, as MikkTSpace defines them
+    object,  ///< those of the mesh
+};
+
 struct MapOptions {
     int width = 2048, height = 2048; ///< texels, in [1, 16384]
     bool udim = false;               ///< bake all UDIM tiles with faces, not only the unit square
@@ -23,6 +29,8 @@ struct MapOptions {
     /// How many texels around islands are filled, >= 0; empty: 1/128 of the larger side. At least the size of the map:
     /// everything.
     std::optional<int> margin{};
+    MapSpace space = MapSpace::tangent;
+    bool flip_green = false; ///< negate the second coordinate of directions, as DirectX expects
 };
 
 /// The values of one attribute, row by row from the top, where v is 1.
@@ -63,12 +71,19 @@ BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOpt
 
 enum class MapDepth { automatic, eight, sixteen, half, single };
 
+/// What a channel of a packed PNG holds: an attribute with one component, or a number.
+struct PackedChannel {
+    std::optional<Channel> attribute{};
+    float number = 0.0f; ///< in [0, 1], without an attribute
+};
+
 struct MapFileOptions {
     MapDepth depth = MapDepth::automatic; ///< 8 bits in a .png, half in an .exr
+    std::vector<PackedChannel> pack{};    ///< one to four: write one .png with these channels
 };
 
 /// Checks options without a mesh. \throw InputError if an option is out of range, for another extension than .png and
-/// .exr, or a depth that the format lacks.
+/// .exr, a depth that the format lacks, or channels that cannot be packed.
 void check(const MapOptions& options);
 void check(const MapFileOptions& options, const std::filesystem::path& file);
 

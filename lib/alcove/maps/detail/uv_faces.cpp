@@ -5,6 +5,7 @@
 #include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -87,6 +88,27 @@ SurfacePoint UvFaces::point(std::uint32_t triangle, const Vec3d& weights) const 
     }
     point.normal = unit_or_zero(normal);
     return point;
+}
+
+void UvFaces::add_tangents() {
+    std::vector<std::array<TangentCorner, 3>> triangles(uvs_.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k)
+            triangles[t][k] = {mesh_.positions[vertices_[t][k]], normals_[t][k], uvs_[t][k]};
+    tangents_ = tangent_frames(triangles);
+}
+
+Vec3 UvFaces::to_tangent(std::uint32_t triangle, const Vec3d& weights, const Vec3& direction) const {
+    glm::mat3 axes(0.0f);
+    const TangentTriangle& frame = tangents_[triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 normal = normals_[triangle][k], tangent = frame.tangents[k];
+        axes += static_cast<float>(weights[static_cast<int>(k)]) *
+                glm::mat3(tangent, frame.sign * glm::cross(normal, tangent), normal);
+    }
+    const Vec3 local = glm::inverse(axes) * direction;
+    const float length = glm::length(local);
+    return length > 0.0f && std::isfinite(length) ? local / length : Vec3(0.0f);
 }
 
 std::vector<int> UvFaces::tiles(bool udim) const {

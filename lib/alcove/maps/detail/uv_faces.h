@@ -3,6 +3,7 @@
 
 #include "alcove/bake/bake.h"
 #include "alcove/maps/detail/rasterize.h"
+#include "alcove/maps/detail/tangent_frames.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
 
@@ -20,6 +21,10 @@ class UvFaces {
 
     std::span<const UvTriangle> uvs() const { return uvs_; }
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
+    /// Computes what to_tangent() needs.
+    void add_tangents();
+    /// A direction in the frame that shaders interpolate between the corners. Zero if that has no area.
+    Vec3 to_tangent(std::uint32_t triangle, const Vec3d& weights, const Vec3& direction) const;
     /// The numbers of the UDIM tiles that triangles reach, in ascending order; only 1001 without `udim`.
     std::vector<int> tiles(bool udim) const;
     /// What was left out, and what lies outside of the tiles.
@@ -31,6 +36,7 @@ class UvFaces {
     std::vector<std::uint32_t> faces_;
     std::vector<Triangle> vertices_;
     std::vector<std::array<Vec3, 3>> normals_;
+    std::vector<TangentTriangle> tangents_;
     std::size_t unusable_ = 0, flat_ = 0; // triangles with UVs that are not finite or far away, or without area
 };
 
