@@ -253,6 +253,7 @@ void add_render(CLI::App& program) {
                  "  alcove render scene.toml -o scene.png --size 960x540 --method classic\n"
                  "  alcove render scan.vdb -o scan.exr --size 1920x1080 --eye 1,1,3 --look-at 0,0,0\n"
                  "  alcove render scan.ply -o clay.png --color none\n"
+                 "  alcove render game.obj -o game.png --texture game_ao.png --method none\n"
                  "  alcove render scan.ply -o spin.png --frames 36\n");
     verb->callback([options] { run(*options); });
 }

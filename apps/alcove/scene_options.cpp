@@ -121,6 +121,8 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         "Colours. own: the vertex or face colours of the mesh, or the material colours of an obj; none: grey")
         ->type_name("NAME")
         ->default_str("own");
+    verb.add_option("--texture", request.texture, "Texture map (png, exr) that colours the mesh by its UVs")
+        ->type_name("FILE");
 }
 
 Scene requested_scene(const SceneRequest& request, PassSet passes) {
@@ -133,10 +135,13 @@ Scene requested_scene(const SceneRequest& request, PassSet passes) {
         mesh->sign = request.sign;
         mesh->own_normals = request.own_normals.value_or(true);
         mesh->own_colors = request.own_colors.value_or(true);
+        mesh->texture = request.texture;
     } else if (request.voxel || request.weld || request.sign != SignChoice::automatic || request.own_normals ||
-               request.own_colors) {
-        throw UsageError(fmt::format("--voxel, --weld, --sign, --normals and --color are for meshes: {} is a {}",
-                                     request.input, described ? "scene, whose objects set them" : "grid already"));
+               request.own_colors || !request.texture.empty()) {
+        throw UsageError(
+            fmt::format("--voxel, --weld, --sign, --normals, --color and --texture are for meshes: {} is a "
+                        "{}",
+                        request.input, described ? "scene, whose objects set them" : "grid already"));
     }
     if (GridShape* grid = described ? nullptr : std::get_if<GridShape>(&scene.objects.front().shape))
         grid->names = request.grid_names;

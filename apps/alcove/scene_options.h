@@ -19,7 +19,7 @@ struct SceneRequest {
     SignChoice sign = SignChoice::automatic;
     std::optional<Quality> quality{};
     MethodRequest method{};
-    std::string size{};
+    std::string size{}, texture{};
     std::optional<Vec3d> eye{}, look_at{}, up{};
     std::optional<double> fov{};
     std::optional<int> pixel_samples{};

@@ -93,6 +93,26 @@ TEST_F(BakeMaps, PackedAttributesAreBakedTogether) {
     EXPECT_EQ(run({"bake", "box.obj", "-o", "p.png", "--pack", "ao,bent_normal"}).code, usage);
 }
 
+TEST_F(BakeMaps, RenderShowsAMapOnTheMesh) {
+    write_box("box.obj");
+    ASSERT_EQ(run({"bake", "box.obj", "-o", "ao.png", "--size", "32"}).code, done);
+    const std::vector<std::string> render{"render", "box.obj", "--size", "32x24", "--method", "none", "--texture"};
+    const auto with = [&](const std::string& texture, const std::string& output) {
+        std::vector<std::string> arguments = render;
+        arguments.insert(arguments.end(), {texture, "-o", output});
+        return run(arguments);
+    };
+    EXPECT_EQ(with("ao.png", "r.png").code, done);
+    const Outcome missing = with("none.png", "s.png");
+    EXPECT_EQ(missing.code, bad_input);
+    EXPECT_NE(missing.err.find("none.png"), std::string::npos) << missing.err;
+    write_mesh(sphere_mesh(2), folder_ / "work/box.obj");
+    const Outcome without = with("ao.png", "s.png");
+    EXPECT_EQ(without.code, bad_input);
+    EXPECT_NE(without.err.find("has no texture coordinates (UVs) for the texture ao.png"), std::string::npos)
+        << without.err;
+}
+
 TEST_F(BakeMaps, AMeshWithoutUvsIsToldTheOtherWays) {
     write_mesh(sphere_mesh(2), folder_ / "work/ball.ply");
     const Outcome outcome = run({"bake", "ball.ply", "-o", "a.png"});

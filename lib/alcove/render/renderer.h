@@ -144,12 +144,16 @@ std::vector<float> soft_shadows(std::span<const Surfel> surfels, const AnyField&
 using ObjectId = std::uint16_t;
 inline constexpr ObjectId no_object = 0;
 
+struct Texture; // texels by UV (render/detail/texture.h)
+
 /// The vectors have one value per position of the surface.
 struct RenderableMesh {
     RaySurface surface;            ///< unit space
     std::vector<ObjectId> objects; ///< part number
     std::vector<Vec3> normals;     ///< of any length; zero keeps the normal of the field
     std::vector<Vec3> colors;      ///< linear light; may be empty
+    std::vector<Vec2> uvs{};       ///< NaN: not textured; empty without a texture
+    std::shared_ptr<const Texture> texture{};
 };
 
 /// One operand of the union that forms a field.

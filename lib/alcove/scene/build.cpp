@@ -191,7 +191,8 @@ BuiltScene build_scene(const Scene& scene, PassSet passes, const Progress& progr
         }
         parts.push_back({field_of(loaded, frame, grids), material});
         if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape)) {
-            parts.back().colored = mesh->own_colors.value_or(false) && loaded.mesh->colors->any();
+            parts.back().colored =
+                !mesh->texture.empty() || (mesh->own_colors.value_or(false) && loaded.mesh->colors->any());
             parts.back().painted = mesh->painted;
             parts.back().on_triangles = only_triangles;
         }

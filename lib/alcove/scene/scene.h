@@ -54,7 +54,8 @@ struct MeshShape {
     /// Whether its own colours (own_colors()) replace the colour of the material. If unset, they do not, and a warning
     /// says so.
     std::optional<bool> own_colors{};
-    std::optional<Length> weld{}; ///< joins vertices within it; a percentage is of the mesh's own diagonal
+    std::optional<Length> weld{};    ///< joins vertices within it; a percentage is of the mesh's own diagonal
+    std::filesystem::path texture{}; ///< a .png or .exr that colours it by its UVs; empty: none. One per scene
 };
 /// A level set in a .vdb file.
 struct GridShape {

@@ -167,6 +167,8 @@ class ObjectReader {
                 mesh.own_colors = *colors == 1;
             else if (mesh.painted)
                 mesh.own_colors = false;
+            if (const std::optional<std::string> texture = table.text("texture"))
+                mesh.texture = folder_ / *texture;
             mesh.weld = length(table, "weld");
             if (mesh.weld && (mesh.weld->unit == Length::Unit::voxels || std::isinf(mesh.weld->value)))
                 table.fail("weld", "takes a finite length, and not in vx: write 0.2 (scene units) or \"0.001%\"");

@@ -1,5 +1,7 @@
 #include "alcove/render/detail/snap.h"
 
+#include "alcove/render/detail/texture.h"
+
 #include "alcove/occlusion/detail/directions.h"
 
 #include <algorithm>
@@ -129,7 +131,16 @@ class Snapper {
         }
         hits_.faces[sample] = places_[i].vertices;
         if (!hits_.colors.empty())
-            hits_.colors[sample] = interpolated(renderable_.mesh->colors, places_[i]);
+            hits_.colors[sample] = color_at(places_[i]);
+    }
+
+    Vec3 color_at(const SurfaceHit& place) const {
+        const RenderableMesh& mesh = *renderable_.mesh;
+        const Vec3 color = interpolated(mesh.colors, place);
+        if (!mesh.texture)
+            return color;
+        const Vec2 uv = interpolated(mesh.uvs, place);
+        return std::isfinite(uv.x) && std::isfinite(uv.y) ? mesh.texture->at(uv) : color;
     }
 
     /// Takes the colour from the nearest triangle around the sample. At some outlines, rays meet the field but no
@@ -147,7 +158,7 @@ class Snapper {
             if (around.hit[i] && around.travelled[i] < nearest &&
                 renderable_.mesh->objects[places_[i].vertices[0]] == hits_.objects[sample]) {
                 nearest = around.travelled[i];
-                hits_.colors[sample] = interpolated(renderable_.mesh->colors, places_[i]);
+                hits_.colors[sample] = color_at(places_[i]);
             }
     }
 

@@ -3,11 +3,13 @@
 #include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/mesh/detail/corner_normals.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/detail/directions.h"
-#include "alcove/mesh/detail/corner_normals.h"
+#include "alcove/render/detail/texture.h"
 
 #include <array>
+#include <limits>
 
 namespace alcove {
 namespace {
@@ -56,14 +58,16 @@ class Collector {
         const Mesh& mesh = loaded.mesh->mesh;
         const std::vector<Triangle>& triangles = loaded.mesh->triangles;
         const CornerColors colors(*loaded.mesh, shape, *loaded.object);
-        has_colors_ = has_colors_ || colors.any();
+        has_colors_ = has_colors_ || colors.any() || !shape.texture.empty();
+        const std::vector<Triangle> corners =
+            shape.texture.empty() ? std::vector<Triangle>() : add_texture(mesh, shape);
         const auto first = static_cast<std::uint32_t>(positions_.size());
         const auto add_vertex = [&](std::uint32_t vertex, const Vec3& normal, const Vec3& color) {
             const Vec3d& p = mesh.positions[vertex];
             add_position(is_finite(p) ? frame_.to_unit(loaded.pose(p)) : Vec3(0.0f),
                          Vec3(loaded.pose.rotation * Vec3d(normal)), color);
         };
-        if (!shape.own_normals && !colors.of_faces()) {
+        if (!shape.own_normals && !colors.of_faces() && corners.empty()) {
             for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
                 add_vertex(vertex, Vec3(0.0f), colors(0, vertex));
             add_triangles(triangles, first);
@@ -74,8 +78,12 @@ class Collector {
         if (shape.own_normals)
             normals = corner_normals(mesh, triangles);
         for (std::size_t f = 0; f < triangles.size(); ++f) {
-            for (std::size_t corner = 0; corner < 3; ++corner)
+            for (std::size_t corner = 0; corner < 3; ++corner) {
                 add_vertex(triangles[f][corner], normals[f][corner], colors(f, triangles[f][corner]));
+                if (!corners.empty())
+                    uvs_.back() = mesh.corner_uvs.empty() ? mesh.vertex_uvs[triangles[f][corner]]
+                                                          : mesh.corner_uvs[corners[f][corner]];
+            }
             const auto at = static_cast<std::uint32_t>(3 * f);
             triangles_.push_back({first + at, first + at + 1, first + at + 2});
         }
@@ -119,15 +127,32 @@ class Collector {
             return nullptr;
         if (!has_colors_)
             colors_.clear();
-        return std::make_shared<const RenderableMesh>(RenderableMesh{
-            RaySurface(positions_, triangles_), std::move(objects_), std::move(normals_), std::move(colors_)});
+        if (!texture_)
+            uvs_.clear();
+        return std::make_shared<const RenderableMesh>(
+            RenderableMesh{RaySurface(positions_, triangles_), std::move(objects_), std::move(normals_),
+                           std::move(colors_), std::move(uvs_), std::move(texture_)});
     }
 
   private:
+    /// \return the corners of the triangles, see corners_of_triangles()
+    std::vector<Triangle> add_texture(const Mesh& mesh, const MeshShape& shape) {
+        if (mesh.vertex_uvs.empty() && mesh.corner_uvs.empty())
+            throw InputError(shape.file.string() + ": has no texture coordinates (UVs) for the texture " +
+                             shape.texture.string());
+        if (texture_ && texture_file_ != shape.texture)
+            throw InputError(shape.texture.string() + ": a scene shows one texture: bake the objects into one map");
+        if (!texture_)
+            texture_ = std::make_shared<const Texture>(read_texture(shape.texture));
+        texture_file_ = shape.texture;
+        return corners_of_triangles(mesh);
+    }
+
     void add_position(const Vec3& p, const Vec3& normal, const Vec3& color) {
         positions_.push_back(p);
         normals_.push_back(normal);
         colors_.push_back(color);
+        uvs_.emplace_back(std::numeric_limits<float>::quiet_NaN());
         objects_.push_back(object_);
     }
     void add_triangles(std::span<const Triangle> triangles, std::uint32_t first) {
@@ -137,6 +162,9 @@ class Collector {
 
     const Frame& frame_;
     std::vector<Vec3> positions_, normals_, colors_;
+    std::vector<Vec2> uvs_;
+    std::shared_ptr<const Texture> texture_;
+    std::filesystem::path texture_file_;
     std::vector<Triangle> triangles_;
     std::vector<ObjectId> objects_;
     ObjectId object_ = no_object;
@@ -156,7 +184,8 @@ std::shared_ptr<const RenderableMesh> triangles_of(const std::vector<LoadedShape
         const AnyField& field = parts[part++].field;
         collector.begin(static_cast<ObjectId>(part));
         const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape);
-        if (mesh && (all || mesh->own_normals || mesh->painted || mesh->own_colors.value_or(false)))
+        if (mesh &&
+            (all || mesh->own_normals || !mesh->texture.empty() || mesh->painted || mesh->own_colors.value_or(false)))
             collector.add_mesh(loaded, *mesh);
         else if (all)
             collector.add_field(loaded, field);
