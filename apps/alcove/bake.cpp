@@ -82,6 +82,8 @@ void check_usage(const BakeVerb& verb) {
     const GridStack any;
     if (meshed || !verb.grid.empty())
         options.grid = &any;
+    if (!verb.map.map.surface.empty()) // needs no other attribute
+        options.attributes = options.attributes | Channel::ao;
     as_usage([&] { check(options); });
 }
 
@@ -96,7 +98,9 @@ void check_map_usage(const BakeVerb& verb, const std::string& output) {
     refuse(verb.add.color != ColorUse::automatic, "--color");
     refuse(!verb.write_grid.empty(), "--write-grid");
     as_usage([&] {
-        check(verb.map.map);
+        MapOptions map = verb.map.map;
+        map.high.resize(verb.map.high.size()); // read later
+        check(map);
         check(verb.map.files, output);
     });
     const AtomicFile probe(output); // to find out early
@@ -107,8 +111,8 @@ void check_format(const BakeVerb& verb, const std::string& output) {
         return check_map_usage(verb, output);
     if (verb.map.given())
         throw UsageError(
-            "--size, --subsamples, --margin, --depth, --space, --flip-green and --pack are for texture maps: "
-            "write a .png or .exr");
+            "--size, --subsamples, --margin, --depth, --space, --flip-green, --high, --reach, --miss-mask, "
+            "--pack, and the attributes of a high mesh are for texture maps: write a .png or .exr");
     const ChannelSet others = verb.bake.attributes.without(Channel::ao);
     if (extension(output) == ".obj" && !others.empty())
         throw UsageError(output + ": an .obj can store only ao, as colours: write a .ply for " + names_of(others));
@@ -131,6 +135,13 @@ std::string rmse_text(const Baked& baked) {
 std::string evaluated_text(const Baked& baked) {
     return baked.evaluated < 1.0 ? fmt::format(" at {:.2g} % of them, the others interpolated", 100.0 * baked.evaluated)
                                  : "";
+}
+
+/// How the values were computed, and their error.
+std::string method_text(const Baked& baked) {
+    return fmt::format(" by {}{}, radius {:.4g}, {}{}{}", baked.method, evaluated_text(baked), baked.radius,
+                       baked.grid_summary.text(), rmse_text(baked),
+                       baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason));
 }
 
 /// One input, from reading to writing.
@@ -158,9 +169,11 @@ class BakeJob {
                 fmt::format("{}: misses the error target of {:g}: the measured RMSE is {:.2g}, and nothing is written",
                             file_.input, *baked.target, *baked.rmse));
         watch.lap();
-        if (maps)
+        if (maps) {
             write_maps(*maps, file_.output, verb_.map.files);
-        else
+            if (!verb_.map.miss_mask.empty())
+                write_miss_mask(*maps, verb_.map.miss_mask);
+        } else
             write(baked);
         seconds_["write"] = watch.lap();
         warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
@@ -176,6 +189,8 @@ class BakeJob {
     MapOptions map_options() const {
         MapOptions options = verb_.map.map;
         options.udim = file_.output.find("<UDIM>") != std::string::npos;
+        for (const std::string& high : verb_.map.high)
+            options.high.push_back(is_grid(high) ? surface_of(read_grids(high), high) : read_mesh(high));
         return options;
     }
 
@@ -227,6 +242,8 @@ class BakeJob {
                         {"size", size},
                         {"texels", or_null(maps.has_value(), maps ? maps->texels : 0)},
                         {"overlaps", or_null(maps.has_value(), maps ? maps->overlaps : 0)},
+                        {"misses", or_null(maps && maps->reach > 0.0, maps ? maps->misses : 0)},
+                        {"reach", or_null(maps && maps->reach > 0.0, maps ? maps->reach : 0.0)},
                         {"attributes", names_of(baked.attributes)},
                         {"method", baked.method.substr(0, baked.method.find(':'))},
                         {"samples", or_null(baked.samples.has_value(), baked.samples.value_or(0))},
@@ -245,11 +262,10 @@ class BakeJob {
                        verb_.inputs.size() > 1);
         else if (!verb_.common.quiet)
             say(fmt::format(
-                "{}: {} by {}{}, radius {:.4g}, {}{}{}", file_.output,
-                maps ? summary_of(baked, *maps)
+                "{}: {}{}", file_.output,
+                maps ? summary_of(*maps)
                      : fmt::format("{} of {} vertices", names_of(baked.attributes), grouped(mesh_.vertex_count())),
-                baked.method, evaluated_text(baked), baked.radius, grid.text(), rmse_text(baked),
-                baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason)));
+                baked.method.empty() ? "" : method_text(baked)));
     }
 
     const BakeVerb& verb_;
@@ -273,8 +289,10 @@ void run(BakeVerb& verb) {
     if (!verb.map.files.pack.empty()) {
         ChannelSet packed;
         for (const PackedChannel& channel : verb.map.files.pack)
-            if (channel.attribute)
-                packed = packed | *channel.attribute;
+            if (channel.attribute && *channel.attribute < MapAttribute::normal)
+                packed = packed | static_cast<Channel>(*channel.attribute);
+            else if (channel.attribute)
+                verb.map.map.surface = verb.map.map.surface | *channel.attribute;
         verb.bake.attributes = packed;
     }
     check_usage(verb);
@@ -334,10 +352,17 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
 void add_surface(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
     app.add_option_function<std::string>(
-           "--attributes", [&bake](const std::string& names) { bake.attributes = parse_attributes(names); },
+           "--attributes",
+           [&verb](std::string names) {
+               verb.map.map.surface = take_surface_attributes(names);
+               verb.bake.attributes = names.empty() ? ChannelSet() : parse_attributes(names);
+           },
            "What to bake, separated by commas: ao, convexity, bent_normal, thickness; with --method multiscale also "
-           "ao_short, ao_long")
-        ->check(parsable(parse_attributes))
+           "ao_short, ao_long; with --high also normal, height, position, object")
+        ->check(parsable([](std::string names) {
+            if (take_surface_attributes(names).empty() || !names.empty())
+                parse_attributes(names);
+        }))
         ->type_name("NAMES")
         ->default_str("ao");
     add_choice<NormalSource>(

@@ -30,24 +30,32 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {*width, *height};
 }
 
+/// normal, height, position or object, or one of the channels.
+std::optional<MapAttribute> map_attribute(std::string_view name) {
+    for (auto attribute = MapAttribute::ao; attribute <= MapAttribute::object;
+         attribute = static_cast<MapAttribute>(static_cast<int>(attribute) + 1))
+        if (info(attribute).name == name)
+            return attribute;
+    return {};
+}
+
 /// Names of attributes and numbers, separated by commas.
 std::vector<PackedChannel> parse_pack(const std::string& text) {
     std::vector<PackedChannel> pack;
     std::istringstream words(text);
     for (std::string word; std::getline(words, word, ',');) {
-        const auto* found = std::find_if(channels.begin(), channels.end(),
-                                         [&](const ChannelInfo& channel) { return channel.name == word; });
+        const std::optional<MapAttribute> found = map_attribute(word);
         float number = -1.0f;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
         const bool is_number = error == std::errc() && end == word.data() + word.size();
-        if (found == channels.end() && !(is_number && number >= 0.0f && number <= 1.0f))
+        if (!found && !(is_number && number >= 0.0f && number <= 1.0f))
             throw InputError(fmt::format(
                 "takes attributes and numbers from 0 to 1, separated by commas, such as ao,thickness,0, not '{}'",
                 word));
-        if (found == channels.end())
-            pack.push_back({{}, number});
+        if (found)
+            pack.push_back({found});
         else
-            pack.push_back({found->channel});
+            pack.push_back({{}, number});
     }
     return pack;
 }
@@ -63,8 +71,24 @@ int parse_margin(const std::string& text) {
 
 }
 
+EnumSet<MapAttribute> take_surface_attributes(std::string& names) {
+    EnumSet<MapAttribute> surface;
+    std::string others;
+    std::istringstream words(names);
+    for (std::string word; std::getline(words, word, ',');) {
+        const std::optional<MapAttribute> attribute = map_attribute(word);
+        if (attribute && *attribute >= MapAttribute::normal)
+            surface = surface | *attribute;
+        else
+            others += (others.empty() ? "" : ",") + word;
+    }
+    names = others;
+    return surface;
+}
+
 bool MapRequest::given() const {
-    return sized || files.depth != MapDepth::automatic || map.space != MapSpace::tangent || map.flip_green ||
+    return sized || !high.empty() || map.reach || !miss_mask.empty() || !map.surface.empty() ||
+           files.depth != MapDepth::automatic || map.space != MapSpace::tangent || map.flip_green ||
            !files.pack.empty();
 }
 
@@ -109,11 +133,31 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         ->type_name("DEPTH");
     add_choice<MapSpace>(verb, "--space", request.map.space,
                          {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
-                         "Axes of bent normals in a map: tangent (MikkTSpace) or object (those of the mesh)")
+                         "Axes of directions in a map: tangent (MikkTSpace) or object (those of the mesh)")
         ->type_name("SPACE")
         ->default_str("tangent");
-    verb.add_flag("--flip-green", request.map.flip_green,
-                  "Negate the green channel of bent normals, as DirectX expects");
+    verb.add_flag("--flip-green", request.map.flip_green, "Negate the green channel of directions, as DirectX expects");
+    verb.add_option(
+            "--high", request.high,
+            "High-poly mesh or level set whose surface is baked into the UVs of the input; repeat the option for "
+            "more")
+        ->option_text("MESH");
+    verb.add_option_function<std::string>(
+            "--reach",
+            [&request](const std::string& text) {
+                if (text != "auto")
+                    request.map.reach = Length(text);
+            },
+            "How far to look for the high mesh, in front of the surface and behind it: a length, or auto (from the "
+            "distance of the meshes)")
+        ->check(parsable([](const std::string& text) {
+            if (text != "auto")
+                length_without_vx(text, "auto, 0.2 (scene units) or 2% (of the diagonal of the high mesh)");
+        }))
+        ->type_name("LEN")
+        ->default_str("auto");
+    verb.add_option("--miss-mask", request.miss_mask, "Write a png that is white where no high mesh is within reach")
+        ->type_name("FILE");
     verb.add_option_function<std::string>(
             "--pack", [&request](const std::string& text) { request.files.pack = parse_pack(text); },
             "Write one png with these attributes as its channels, such as ao,thickness,convexity. A number fills a "
@@ -123,9 +167,13 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         ->type_name("NAMES");
 }
 
-std::string summary_of(const Baked& baked, const BakedMaps& maps) {
-    return fmt::format("{} of {} texels of {} x {}{}", names_of(baked.attributes), grouped(maps.texels), maps.width,
-                       maps.height, maps.tiles.size() > 1 ? fmt::format(" in {} tiles", maps.tiles.size()) : "");
+std::string summary_of(const BakedMaps& maps) {
+    std::string names;
+    for (const MapLayer& layer : maps.tiles.front().layers)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", info(layer.attribute).name);
+    return fmt::format("{} of {} texels of {} x {}{}{}", names, grouped(maps.texels), maps.width, maps.height,
+                       maps.tiles.size() > 1 ? fmt::format(" in {} tiles", maps.tiles.size()) : "",
+                       maps.reach > 0.0 ? fmt::format(", reach {:.4g}", maps.reach) : "");
 }
 
 }

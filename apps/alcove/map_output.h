@@ -10,6 +10,8 @@ namespace alcove::cli {
 struct MapRequest {
     MapOptions map;
     MapFileOptions files;
+    std::vector<std::string> high{};
+    std::string miss_mask{};
     bool sized = false; ///< whether --size, --subsamples or --margin was used
 
     bool given() const; ///< whether any option for maps was used
@@ -18,10 +20,13 @@ struct MapRequest {
 /// Whether the name of an output ends in .png or .exr.
 bool is_map(const std::string& output);
 
-/// Adds --size, --subsamples, --margin, --depth, --space, --flip-green and --pack.
+/// Adds --size, --subsamples, --margin, --depth, --space, --flip-green, --high, --reach, --miss-mask and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
 /// "ao of 306,123 texels of 2048 x 2048".
-std::string summary_of(const Baked& baked, const BakedMaps& maps);
+std::string summary_of(const BakedMaps& maps);
+
+/// Removes normal, height, position and object from names separated by commas, and returns them.
+EnumSet<MapAttribute> take_surface_attributes(std::string& names);
 
 }

@@ -41,7 +41,7 @@ void bake_map(const Mesh& mesh, const PlainEmbree& bvh, float radius, int rays, 
         values[i] = values[nearest[i]];
     BakedMaps maps;
     maps.width = maps.height = size;
-    maps.tiles.push_back({1001, {{Channel::ao, std::move(values)}}, {}});
+    maps.tiles.push_back({1001, {{MapAttribute::ao, std::move(values)}}, {}});
     write_maps(maps, file);
 }
 

@@ -93,6 +93,24 @@ TEST_F(BakeMaps, PackedAttributesAreBakedTogether) {
     EXPECT_EQ(run({"bake", "box.obj", "-o", "p.png", "--pack", "ao,bent_normal"}).code, usage);
 }
 
+TEST_F(BakeMaps, AHighMeshIsBakedIntoTheUvsOfALowOne) {
+    write_box("low.obj");
+    write_mesh(box_mesh(Vec3d(1.01), 20), folder_ / "work/high.ply");
+    const Outcome outcome = run({"bake", "low.obj", "--high", "high.ply", "-o", "a.png", "--size", "64", "--attributes",
+                                 "ao,normal,height,object", "--miss-mask", "miss.png", "--json"});
+    ASSERT_EQ(outcome.code, done) << outcome.err;
+    EXPECT_GT(outcome.json().at("reach").get<double>(), 0.01);
+    EXPECT_EQ(outcome.json().at("misses"), 0);
+    for (const char* name : {"a.png", "a_normal.png", "a_height.png", "a_object.png", "miss.png"})
+        EXPECT_EQ(summarize_image(folder_ / (std::string("work/") + name)).width, 64) << name;
+    EXPECT_EQ(run({"bake", "low.obj", "-o", "a.png", "--attributes", "normal"}).code, usage);
+    EXPECT_EQ(run({"bake", "low.obj", "-o", "a.png", "--reach", "0.1"}).code, usage);
+    EXPECT_EQ(run({"bake", "low.obj", "-o", "a.ply", "--high", "high.ply"}).code, usage);
+    const Outcome only_normals =
+        run({"bake", "low.obj", "--high", "high.ply", "-o", "n.png", "--size", "64", "--attributes", "normal"});
+    EXPECT_EQ(only_normals.code, done) << only_normals.err;
+}
+
 TEST_F(BakeMaps, RenderShowsAMapOnTheMesh) {
     write_box("box.obj");
     ASSERT_EQ(run({"bake", "box.obj", "-o", "ao.png", "--size", "32"}).code, done);

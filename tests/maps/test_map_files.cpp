@@ -20,9 +20,9 @@ BakedMaps small_maps() {
     maps.thickest = 2.0;
     maps.tiles.push_back(
         {1001,
-         {{Channel::ao, {0.0f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}},
-          {Channel::bent_normal, {0, 0, 1, 0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, 0, 0}},
-          {Channel::thickness, {0.0f, 0.5f, 1.0f, 1.5f, 2.0f, 0.0f}}},
+         {{MapAttribute::ao, {0.0f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}},
+          {MapAttribute::bent_normal, {0, 0, 1, 0, 0, 1, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, 0, 0}},
+          {MapAttribute::thickness, {0.0f, 0.5f, 1.0f, 1.5f, 2.0f, 0.0f}}},
          {Coverage::face, Coverage::face, Coverage::face, Coverage::face, Coverage::margin, Coverage::background}});
     return maps;
 }
@@ -112,14 +112,14 @@ TEST(MapFiles, TilesHaveTheirNumberInTheName) {
 TEST(MapFiles, AttributesArePackedIntoTheChannelsOfOnePng) {
     const ScratchFolder folder;
     const auto files = write_maps(small_maps(), folder / "map.png",
-                                  {.pack = {{Channel::ao}, {{}, 0.0f}, {Channel::thickness}, {{}, 1.0f}}});
+                                  {.pack = {{MapAttribute::ao}, {{}, 0.0f}, {MapAttribute::thickness}, {{}, 1.0f}}});
     ASSERT_EQ(files.size(), 1u);
     const Png png = read_png(files[0]);
     EXPECT_EQ(png.color_type, PNG_COLOR_TYPE_RGB_ALPHA);
     EXPECT_EQ(std::vector<int>(png.values.begin() + 4, png.values.begin() + 8), (std::vector<int>{51, 0, 64, 255}));
-    EXPECT_THROW(write_maps(small_maps(), folder / "a.png", {.pack = {{Channel::convexity}}}), InputError);
-    EXPECT_THROW(write_maps(small_maps(), folder / "a.png", {.pack = {{Channel::bent_normal}}}), InputError);
-    EXPECT_THROW(write_maps(small_maps(), folder / "a.exr", {.pack = {{Channel::ao}}}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "a.png", {.pack = {{MapAttribute::convexity}}}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "a.png", {.pack = {{MapAttribute::bent_normal}}}), InputError);
+    EXPECT_THROW(write_maps(small_maps(), folder / "a.exr", {.pack = {{MapAttribute::ao}}}), InputError);
 }
 
 TEST(MapFiles, DepthsOfTheOtherFormatAndOtherExtensionsAreRefused) {

@@ -29,7 +29,7 @@ Mesh unwrapped(Mesh mesh, float gap = 0.02f) {
 
 const MapLayer& layer(const MapTile& tile, Channel channel) {
     return *std::find_if(tile.layers.begin(), tile.layers.end(),
-                         [&](const MapLayer& l) { return l.channel == channel; });
+                         [&](const MapLayer& l) { return l.attribute == attribute_of(channel); });
 }
 
 bool has_warning(const BakedMaps& maps, const std::string& part) {

@@ -42,37 +42,70 @@ fs::path of_attribute(const fs::path& file, std::string_view attribute, bool sin
     return file.parent_path() / (stem + file.extension().string());
 }
 
-/// A value of a layer as it is in a PNG, in [0, 1].
-float shown(const MapLayer& layer, float value, double thickest) {
-    if (layer.channel == Channel::thickness)
-        return static_cast<float>(value / thickest);
-    return layer.channel == Channel::bent_normal ? 0.5f + 0.5f * value : value;
-}
+/// Turns the values of a layer into those of a PNG.
+class Shown {
+  public:
+    Shown(const BakedMaps& maps, const MapLayer& layer, int bits)
+        : maps_(maps), layer_(layer), components_(info(layer.attribute).components), most_((1 << bits) - 1) {}
 
-std::uint16_t quantized(float value, int bits) {
-    const auto most = static_cast<float>((1 << bits) - 1);
-    return static_cast<std::uint16_t>(std::lround(most * std::clamp(value, 0.0f, 1.0f)));
-}
+    /// The i-th value of the layer.
+    std::uint16_t operator()(std::size_t i) const {
+        const double share = std::clamp(share_of(i, double(layer_.values[i])), 0.0, 1.0);
+        return static_cast<std::uint16_t>(std::lround(most_ * share));
+    }
+
+  private:
+    double share_of(std::size_t i, double value) const {
+        switch (layer_.attribute) {
+        case MapAttribute::thickness:
+            return value / maps_.thickest;
+        case MapAttribute::height:
+            return 0.5 + 0.5 * value / maps_.reach;
+        case MapAttribute::position: {
+            const auto axis = static_cast<int>(i % components_);
+            const double size = maps_.box.max[axis] - maps_.box.min[axis];
+            return size > 0.0 ? (value - maps_.box.min[axis]) / size : 0.5;
+        }
+        case MapAttribute::object:
+            return value / most_;
+        default:
+            return info(layer_.attribute).is_direction ? 0.5 + 0.5 * value : value;
+        }
+    }
+
+    const BakedMaps& maps_;
+    const MapLayer& layer_;
+    std::size_t components_;
+    double most_;
+};
 
 std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {
+    const Shown shown(maps, layer, bits);
     std::vector<std::uint16_t> values(layer.values.size());
-    std::transform(layer.values.begin(), layer.values.end(), values.begin(),
-                   [&](float value) { return quantized(shown(layer, value, maps.thickest), bits); });
-    return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.channel).components), bits, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = shown(i);
+    return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.attribute).components), bits, values);
 }
 
 std::string packed(const BakedMaps& maps, const MapTile& tile, std::span<const PackedChannel> pack, int bits) {
     const std::size_t texels = tile.coverage.size(), channels = pack.size();
     std::vector<std::uint16_t> values(channels * texels);
     for (std::size_t c = 0; c < channels; ++c) {
+        if (!pack[c].attribute) {
+            const auto value = static_cast<std::uint16_t>(
+                std::lround(static_cast<float>((1 << bits) - 1) * std::clamp(pack[c].number, 0.0f, 1.0f)));
+            for (std::size_t i = 0; i < texels; ++i)
+                values[channels * i + c] = value;
+            continue;
+        }
         const auto layer = std::find_if(tile.layers.begin(), tile.layers.end(), [&](const MapLayer& candidate) {
-            return pack[c].attribute == candidate.channel;
+            return *pack[c].attribute == candidate.attribute;
         });
-        if (pack[c].attribute && layer == tile.layers.end())
+        if (layer == tile.layers.end())
             throw InputError(fmt::format("{} was not baked, so it cannot be packed", info(*pack[c].attribute).name));
+        const Shown shown(maps, *layer, bits);
         for (std::size_t i = 0; i < texels; ++i)
-            values[channels * i + c] =
-                quantized(pack[c].attribute ? shown(*layer, layer->values[i], maps.thickest) : pack[c].number, bits);
+            values[channels * i + c] = shown(i);
     }
     return encode_png_file(maps.width, maps.height, static_cast<int>(channels), bits, values);
 }
@@ -86,7 +119,8 @@ void write_file(const fs::path& file, const std::string& bytes) {
 std::vector<fs::path> write_pngs(const BakedMaps& maps, const MapTile& tile, const fs::path& file, int bits) {
     std::vector<fs::path> written;
     for (const MapLayer& layer : tile.layers) {
-        const fs::path path = of_tile(of_attribute(file, info(layer.channel).name, tile.layers.size() == 1), tile.udim);
+        const fs::path path =
+            of_tile(of_attribute(file, info(layer.attribute).name, tile.layers.size() == 1), tile.udim);
         write_file(path, encoded(maps, layer, bits));
         written.push_back(path);
     }
@@ -94,12 +128,12 @@ std::vector<fs::path> write_pngs(const BakedMaps& maps, const MapTile& tile, con
 }
 
 /// The name of a layer in an .exr: "AO", "BentNormal".
-std::string layer_name(Channel channel) {
-    if (channel == Channel::ao)
+std::string layer_name(MapAttribute attribute) {
+    if (attribute == MapAttribute::ao)
         return "AO";
     std::string name;
     bool starts_word = true;
-    for (const char c : info(channel).name) {
+    for (const char c : info(attribute).name) {
         if (c != '_')
             name += starts_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
         starts_word = c == '_';
@@ -113,7 +147,7 @@ void write_exr(const BakedMaps& maps, const MapTile& tile, const fs::path& file,
                    [](Coverage coverage) { return coverage == Coverage::background ? 0.0f : 1.0f; });
     std::vector<ExrChannel> channels{{"A", alpha.data(), 1, precision}};
     for (const MapLayer& layer : tile.layers) {
-        const std::size_t components = info(layer.channel).components;
+        const std::size_t components = info(layer.attribute).components;
         const auto add = [&](const std::string& prefix, std::string_view names) {
             for (std::size_t c = 0; c < 3; ++c)
                 channels.push_back(
@@ -121,7 +155,7 @@ void write_exr(const BakedMaps& maps, const MapTile& tile, const fs::path& file,
         };
         if (&layer == &tile.layers.front())
             add("", "RGB");
-        add(layer_name(layer.channel) + ".", components == 3 ? "XYZ" : "RGB");
+        add(layer_name(layer.attribute) + ".", components == 3 ? "XYZ" : "RGB");
     }
     ImageHeader header;
     header.software = "alcove " ALCOVE_VERSION;
@@ -165,6 +199,21 @@ std::vector<fs::path> write_maps(const BakedMaps& maps, const fs::path& file, co
             write_exr(maps, tile, written.back(),
                       options.depth == MapDepth::single ? Precision::single : Precision::half);
         }
+    return written;
+}
+
+std::vector<fs::path> write_miss_mask(const BakedMaps& maps, const fs::path& file) {
+    if (extension_of(file) != ".png")
+        throw InputError(file.string() + ": the mask of misses is written as .png: use this extension");
+    std::vector<fs::path> written;
+    for (const MapTile& tile : maps.tiles) {
+        std::vector<std::uint16_t> values(tile.coverage.size());
+        std::transform(tile.coverage.begin(), tile.coverage.end(), values.begin(), [](Coverage coverage) {
+            return static_cast<std::uint16_t>(coverage == Coverage::miss ? 255 : 0);
+        });
+        written.push_back(of_tile(file, tile.udim));
+        write_file(written.back(), encode_png_file(maps.width, maps.height, 1, 8, values));
+    }
     return written;
 }
 

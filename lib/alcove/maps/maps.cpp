@@ -23,6 +23,30 @@ constexpr double bytes_per_texel = 10.0;  // coverage, padding, counts
 constexpr int largest_side = 16384, most_subsamples = 8;
 constexpr int first_udim = 1001;
 
+/// The faces of several meshes as one mesh, with the normals and UVs that all of them have.
+Mesh united(std::span<const Mesh> meshes) {
+    Mesh all = meshes.front();
+    all.source.reset();
+    for (const Mesh& mesh : meshes.subspan(1)) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+        if (mesh.normals.empty() != all.normals.empty())
+            all.normals.clear();
+        else
+            append(all.normals, mesh.normals);
+        if (mesh.corner_normals.empty() != all.corner_normals.empty())
+            all.corner_normals.clear();
+        else
+            append(all.corner_normals, mesh.corner_normals);
+        append(all.positions, mesh.positions);
+        for (const std::uint32_t corner : mesh.corners)
+            all.corners.push_back(first + corner);
+        for (std::size_t f = 0; f < mesh.face_count(); ++f)
+            all.face_begin.push_back(all.face_begin.back() + static_cast<std::uint32_t>(mesh.face(f).size()));
+    }
+    return all;
+}
+
 /// Bakes the tiles one after another, in batches of texels that fit in memory.
 class MapBake {
   public:
@@ -31,19 +55,38 @@ class MapBake {
           width_(static_cast<std::size_t>(options.width)), texels_(width_ * static_cast<std::size_t>(options.height)) {
         maps_.width = options.width;
         maps_.height = options.height;
+        for (const ChannelInfo& channel : channels)
+            if (bake.attributes.has(channel.channel))
+                attributes_.push_back(attribute_of(channel.channel));
+        for (const MapAttribute attribute :
+             {MapAttribute::normal, MapAttribute::height, MapAttribute::position, MapAttribute::object})
+            if (options.surface.has(attribute))
+                attributes_.push_back(attribute);
         if (has_tangents())
             faces_.add_tangents();
+        if (!options.high.empty()) {
+            high_ = united(options.high);
+            faces_.add_directions();
+            projection_.emplace(*high_, bake.normals);
+            for (const Mesh& part : options.high)
+                object_ends_.push_back((object_ends_.empty() ? 0 : object_ends_.back()) + part.face_count());
+        }
     }
 
     BakedMaps run() {
         const std::vector<int> tiles = faces_.tiles(options_.udim);
         check_memory(tiles.size());
+        maps_.box = surface().box();
+        if (projection_)
+            maps_.reach = reach();
         for (const int udim : tiles)
             bake_tile(udim);
         if (maps_.texels == 0)
-            throw InputError("no face covers a texel: the UVs lie outside the tile, or have no area");
+            throw InputError(maps_.misses > 0
+                                 ? "no texel is within reach of the high meshes: give a larger --reach"
+                                 : "no face covers a texel: the UVs lie outside the tile, or have no area");
         warn();
-        maps_.thickest = std::min(maps_.baked.radius, frame_of(mesh_.box()).diagonal);
+        maps_.thickest = std::min(maps_.baked.radius, frame_of(maps_.box).diagonal);
         maps_.baked.values = {};
         if (error_weight_ > 0.0)
             maps_.baked.rmse = std::sqrt(squares_ / error_weight_);
@@ -52,13 +95,33 @@ class MapBake {
 
   private:
     bool has_tangents() const {
-        return options_.space == MapSpace::tangent && bake_.attributes.has(Channel::bent_normal);
+        return options_.space == MapSpace::tangent &&
+               std::any_of(attributes_.begin(), attributes_.end(),
+                           [](MapAttribute attribute) { return info(attribute).is_direction; });
+    }
+
+    /// The mesh whose surface is baked.
+    const Mesh& surface() const { return high_ ? *high_ : mesh_; }
+
+    double reach() const {
+        if (options_.reach)
+            return double(options_.reach->to_unit(projection_->diagonal())) * projection_->diagonal();
+        constexpr std::size_t sample = 4096; // points, spread over triangles
+        const std::size_t count = faces_.uvs().size(), stride = std::max<std::size_t>(count / sample, 1);
+        const auto steps = static_cast<int>(std::ceil(std::sqrt(2.0 * static_cast<double>(sample) / double(count))));
+        std::vector<ProjectedFrom> points;
+        for (std::size_t t = 0; t < count; t += stride)
+            for (int i = 0; i <= steps; ++i)
+                for (int k = 0; k <= steps - i; ++k)
+                    points.push_back(faces_.projected_from(static_cast<std::uint32_t>(t),
+                                                           Vec3d(i, k, steps - i - k) / double(steps)));
+        return projection_->reach_for(points);
     }
 
     std::size_t components() const {
         std::size_t count = 0;
-        for (const ChannelInfo& channel : channels)
-            count += bake_.attributes.has(channel.channel) ? channel.components : 0;
+        for (const MapAttribute attribute : attributes_)
+            count += info(attribute).components;
         return count;
     }
 
@@ -87,10 +150,10 @@ class MapBake {
         maps_.overlaps += owners.overlaps;
         MapTile& map = maps_.tiles.emplace_back();
         map.udim = udim;
-        for (const ChannelInfo& channel : channels)
-            if (bake_.attributes.has(channel.channel))
-                map.layers.push_back({channel.channel, std::vector<float>(texels_ * channel.components, 0.0f)});
+        for (const MapAttribute attribute : attributes_)
+            map.layers.push_back({attribute, std::vector<float>(texels_ * info(attribute).components, 0.0f)});
         std::vector<std::uint16_t> counts(texels_, 0); // samples per texel
+        std::vector<std::uint8_t> wanted(texels_, 0);
         std::vector<std::uint32_t> samples;
         const auto flush = [&] {
             if (!samples.empty())
@@ -100,11 +163,12 @@ class MapBake {
         for (std::size_t i = 0; i < owners.size(); ++i)
             if (owners.triangles[i] != no_triangle) {
                 samples.push_back(static_cast<std::uint32_t>(i));
+                wanted[texel_of(i)] = 1;
                 if (samples.size() == batch_)
                     flush();
             }
         flush();
-        finish(map, counts);
+        finish(map, counts, wanted);
     }
 
     std::size_t texel_of(std::size_t sample) const {
@@ -114,36 +178,84 @@ class MapBake {
 
     void bake_samples(const UvTile& tile, const TexelOwners& owners, const std::vector<std::uint32_t>& samples,
                       MapTile& map, std::vector<std::uint16_t>& counts) {
-        std::vector<SurfacePoint> points(samples.size());
+        const std::vector<ProjectedTo> points = points_of(tile, owners, samples);
+        std::vector<std::uint32_t> hit; // of the samples
+        std::vector<SurfacePoint> targets;
+        for (std::uint32_t i = 0; i < samples.size(); ++i)
+            if (points[i].hit) {
+                hit.push_back(i);
+                targets.push_back(points[i].point);
+            }
+        if (hit.empty())
+            return;
+        Baked baked;
+        if (!bake_.attributes.empty())
+            baked = bake(surface(), targets, bake_);
+        for (MapLayer& layer : map.layers) {
+            std::vector<float> values = layer.attribute < MapAttribute::normal
+                                            ? std::move(baked.values[static_cast<Channel>(layer.attribute)])
+                                            : values_of_surface(layer.attribute, points, hit);
+            if (info(layer.attribute).is_direction)
+                turn_directions(tile, owners, samples, hit, values);
+            const std::size_t components = info(layer.attribute).components;
+            for (std::size_t i = 0; i < hit.size(); ++i)
+                for (std::size_t c = 0; c < components; ++c)
+                    add(layer, components * texel_of(samples[hit[i]]) + c, values[components * i + c]);
+        }
+        for (const std::uint32_t i : hit)
+            ++counts[texel_of(samples[i])];
+        merge(std::move(baked), hit.size());
+    }
+
+    static void add(MapLayer& layer, std::size_t at, float value) {
+        layer.values[at] = layer.attribute == MapAttribute::object ? value : layer.values[at] + value;
+    }
+
+    std::vector<ProjectedTo> points_of(const UvTile& tile, const TexelOwners& owners,
+                                       const std::vector<std::uint32_t>& samples) const {
+        std::vector<ProjectedTo> points(projection_ ? 0 : samples.size());
+        std::vector<ProjectedFrom> from(projection_ ? samples.size() : 0);
         parallel_for(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const std::uint32_t triangle = owners.triangles[samples[i]];
-                points[i] = faces_.point(triangle, weights_at(faces_.uvs()[triangle], tile, samples[i]));
+                const Vec3d weights = weights_at(faces_.uvs()[triangle], tile, samples[i]);
+                if (projection_)
+                    from[i] = faces_.projected_from(triangle, weights);
+                else
+                    points[i] = {faces_.point(triangle, weights), 0.0f, true};
             }
         });
-        Baked baked = bake(mesh_, points, bake_);
-        turn_directions(tile, owners, samples, baked.values[Channel::bent_normal]);
-        for (MapLayer& layer : map.layers) {
-            const std::size_t components = info(layer.channel).components;
-            const std::vector<float>& values = baked[layer.channel];
-            for (std::size_t i = 0; i < samples.size(); ++i)
-                for (std::size_t c = 0; c < components; ++c)
-                    layer.values[components * texel_of(samples[i]) + c] += values[components * i + c];
+        return projection_ ? projection_->project(from, maps_.reach) : points;
+    }
+
+    std::vector<float> values_of_surface(MapAttribute attribute, const std::vector<ProjectedTo>& points,
+                                         const std::vector<std::uint32_t>& hit) const {
+        std::vector<float> values;
+        for (const std::uint32_t i : hit) {
+            const SurfacePoint& point = points[i].point;
+            if (attribute == MapAttribute::height)
+                values.push_back(points[i].height);
+            else if (attribute == MapAttribute::object)
+                values.push_back(
+                    1.0f + static_cast<float>(std::upper_bound(object_ends_.begin(), object_ends_.end(), point.face) -
+                                              object_ends_.begin()));
+            else
+                for (int axis = 0; axis < 3; ++axis)
+                    values.push_back(attribute == MapAttribute::normal ? point.normal[axis]
+                                                                       : static_cast<float>(point.position[axis]));
         }
-        for (const std::uint32_t sample : samples)
-            ++counts[texel_of(sample)];
-        merge(std::move(baked), samples.size());
+        return values;
     }
 
     /// Into the axes of the options.
     void turn_directions(const UvTile& tile, const TexelOwners& owners, const std::vector<std::uint32_t>& samples,
-                         std::vector<float>& directions) const {
-        for (std::size_t i = 0; 3 * i < directions.size(); ++i) {
+                         const std::vector<std::uint32_t>& hit, std::vector<float>& directions) const {
+        for (std::size_t i = 0; i < hit.size(); ++i) {
             float* const d = &directions[3 * i];
             if (has_tangents()) {
-                const std::uint32_t triangle = owners.triangles[samples[i]];
-                const Vec3 local = faces_.to_tangent(triangle, weights_at(faces_.uvs()[triangle], tile, samples[i]),
-                                                     {d[0], d[1], d[2]});
+                const std::uint32_t sample = samples[hit[i]], triangle = owners.triangles[sample];
+                const Vec3 local =
+                    faces_.to_tangent(triangle, weights_at(faces_.uvs()[triangle], tile, sample), {d[0], d[1], d[2]});
                 d[0] = local.x, d[1] = local.y, d[2] = local.z;
             }
             if (options_.flip_green)
@@ -173,43 +285,57 @@ class MapBake {
         maps_.baked.evaluated = evaluated_ / points_;
     }
 
-    /// Turns sums into means, and fills the margin.
-    void finish(MapTile& map, const std::vector<std::uint16_t>& counts) {
+    /// Turns sums into means, and fills the margin and misses.
+    void finish(MapTile& map, const std::vector<std::uint16_t>& counts, const std::vector<std::uint8_t>& wanted) {
         std::vector<std::uint8_t> covered(texels_);
+        std::size_t misses = 0;
         for (std::size_t i = 0; i < texels_; ++i) {
             covered[i] = counts[i] > 0;
             maps_.texels += covered[i];
+            misses += wanted[i] && !covered[i];
         }
+        maps_.misses += misses;
         const int larger = std::max(options_.width, options_.height),
                   margin = std::min(options_.margin.value_or(std::max(larger / 128, 1)), larger);
-        const std::vector<std::uint32_t> nearest = nearest_covered(covered, options_.width, options_.height, margin);
+        std::vector<std::uint32_t> nearest = nearest_covered(covered, options_.width, options_.height, margin);
+        if (misses > 0) { // their neighbours may be further than the margin
+            const auto any = nearest_covered(covered, options_.width, options_.height, larger);
+            for (std::size_t i = 0; i < texels_; ++i)
+                nearest[i] = wanted[i] ? any[i] : nearest[i];
+        }
         map.coverage.resize(texels_);
         for (std::size_t i = 0; i < texels_; ++i)
-            map.coverage[i] = covered[i]            ? Coverage::face
-                              : covered[nearest[i]] ? Coverage::margin
-                                                    : Coverage::background;
-        for (MapLayer& layer : map.layers) {
-            const ChannelInfo& channel = info(layer.channel);
-            const std::size_t components = channel.components;
-            for (std::size_t i = 0; i < texels_; ++i)
-                if (covered[i])
-                    take_mean(std::span(layer.values).subspan(components * i, components), counts[i]);
-            for (std::size_t i = 0; i < texels_; ++i)
-                for (std::size_t c = 0; c < components && !covered[i]; ++c)
-                    layer.values[components * i + c] =
-                        map.coverage[i] == Coverage::margin           ? layer.values[components * nearest[i] + c]
-                        : components == 3 && c == 2 && has_tangents() ? 1.0f // the normal
-                                                                      : channel.missing;
-        }
+            map.coverage[i] = covered[i]             ? Coverage::face
+                              : !covered[nearest[i]] ? Coverage::background
+                              : wanted[i]            ? Coverage::miss
+                                                     : Coverage::margin;
+        for (MapLayer& layer : map.layers)
+            finish(layer, map.coverage, counts, nearest);
     }
 
-    static void take_mean(std::span<float> sums, std::uint16_t count) {
+    void finish(MapLayer& layer, const std::vector<Coverage>& coverage, const std::vector<std::uint16_t>& counts,
+                const std::vector<std::uint32_t>& nearest) const {
+        const MapAttributeInfo attribute = info(layer.attribute);
+        const std::size_t components = attribute.components;
+        for (std::size_t i = 0; i < texels_; ++i)
+            if (coverage[i] == Coverage::face && layer.attribute != MapAttribute::object)
+                take_mean(std::span(layer.values).subspan(components * i, components), counts[i],
+                          attribute.is_direction);
+        for (std::size_t i = 0; i < texels_; ++i)
+            for (std::size_t c = 0; c < components && coverage[i] != Coverage::face; ++c)
+                layer.values[components * i + c] =
+                    coverage[i] != Coverage::background                  ? layer.values[components * nearest[i] + c]
+                    : attribute.is_direction && c == 2 && has_tangents() ? 1.0f // the normal
+                                                                         : attribute.missing;
+    }
+
+    static void take_mean(std::span<float> sums, std::uint16_t count, bool is_direction) {
         float length2 = 0.0f;
         for (float& sum : sums) {
             sum /= static_cast<float>(count);
             length2 += sum * sum;
         }
-        if (sums.size() == 3 && length2 > 0.0f) // directions
+        if (is_direction && length2 > 0.0f)
             for (float& value : sums)
                 value /= std::sqrt(length2);
     }
@@ -220,6 +346,11 @@ class MapBake {
             warnings.push_back(fmt::format("{} covered by several faces (overlapping UVs): the first face is baked "
                                            "there; unwrap without overlaps to give each face its own texels",
                                            counted(maps_.overlaps, "texel is", "texels are")));
+        if (maps_.misses > 0)
+            warnings.push_back(
+                fmt::format("{} no high mesh within {:.4g} and got the values of neighbours: give a larger "
+                            "--reach, and look at --miss-mask",
+                            counted(maps_.misses, "texel has", "texels have"), maps_.reach));
         maps_.baked.warnings.insert(maps_.baked.warnings.begin(), warnings.begin(), warnings.end());
     }
 
@@ -231,10 +362,30 @@ class MapBake {
     UvFaces faces_;
     std::size_t width_, texels_; // of the map; texels per tile
     std::size_t batch_ = fewest_in_batch;
+    std::vector<MapAttribute> attributes_;
+    std::optional<Mesh> high_;
+    std::optional<Projection> projection_;
+    std::vector<std::size_t> object_ends_; // of the high meshes, in the faces of high_
     BakedMaps maps_;
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;
 };
 
+}
+
+MapAttributeInfo info(MapAttribute attribute) {
+    switch (attribute) {
+    case MapAttribute::normal:
+        return {"normal", 3, 0.0f, true};
+    case MapAttribute::height:
+        return {"height", 1, 0.0f, false};
+    case MapAttribute::position:
+        return {"position", 3, 0.0f, false};
+    case MapAttribute::object:
+        return {"object", 1, 0.0f, false};
+    default:
+        const ChannelInfo& channel = info(static_cast<Channel>(attribute));
+        return {channel.name, channel.components, channel.missing, attribute == MapAttribute::bent_normal};
+    }
 }
 
 void check(const MapOptions& options) {
@@ -248,12 +399,18 @@ void check(const MapOptions& options) {
                                      most_subsamples, most_texels));
     if (options.margin && *options.margin < 0)
         throw InputError("--margin takes a number of texels, none or all");
+    if (options.high.empty() && (!options.surface.empty() || options.reach))
+        throw InputError("normal, height, position and object are those of a high mesh, and --reach is for one: give "
+                         "--high");
 }
 
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options) {
     const ThreadLimit limit(bake.threads);
-    check(bake);
     check(options);
+    BakeOptions checked = bake;
+    if (!options.surface.empty()) // needs no other attribute
+        checked.attributes = bake.attributes | Channel::ao;
+    check(checked);
     return MapBake(mesh, bake, options).run();
 }
 

@@ -22,6 +22,32 @@ enum class MapSpace {
     object,  ///< those of the mesh
 };
 
+/// What a map shows: the channels of a bake, in their order, or the surface of the high meshes.
+enum class MapAttribute : std::uint8_t {
+    ao,
+    ao_short,
+    ao_long,
+    convexity,
+    bent_normal,
+    thickness,
+    normal,   ///< unit length
+    height,   ///< above the baked mesh along its normal, scene units
+    position, ///< scene units
+    object,   ///< number of the high mesh, counted from 1
+};
+
+struct MapAttributeInfo {
+    std::string_view name;
+    std::size_t components;
+    float missing;     ///< value of the background
+    bool is_direction; ///< turned into MapOptions::space
+};
+
+constexpr MapAttribute attribute_of(Channel channel) {
+    return static_cast<MapAttribute>(channel);
+}
+MapAttributeInfo info(MapAttribute attribute);
+
 struct MapOptions {
     int width = 2048, height = 2048; ///< texels, in [1, 16384]
     bool udim = false;               ///< bake all UDIM tiles with faces, not only the unit square
@@ -31,18 +57,27 @@ struct MapOptions {
     std::optional<int> margin{};
     MapSpace space = MapSpace::tangent;
     bool flip_green = false; ///< negate the second coordinate of directions, as DirectX expects
+
+    /// Meshes whose surface is baked instead: each texel is projected onto it along the mean normal of the mesh. The
+    /// mesh itself then occludes nothing, and lengths relative to a diagonal refer to these meshes.
+    std::vector<Mesh> high{};
+    /// How far to look for the high meshes, in front and behind; in percent, of their diagonal. Empty: from the distance
+    /// of the meshes.
+    std::optional<Length> reach{};
+    EnumSet<MapAttribute> surface{}; ///< normal, height, position or object, in addition to the attributes of the bake
 };
 
 /// The values of one attribute, row by row from the top, where v is 1.
 struct MapLayer {
-    Channel channel;
-    std::vector<float> values; ///< as ChannelValues, one entry per texel; lengths in scene units
+    MapAttribute attribute;
+    std::vector<float> values; ///< one entry per texel, of as many floats as the attribute has components
 };
 
 enum class Coverage : std::uint8_t {
     background, ///< ChannelInfo::missing
     face,       ///< baked
     margin,     ///< the value of the nearest baked texel
+    miss,       ///< the same, because no high mesh is within reach
 };
 
 struct MapTile {
@@ -56,13 +91,19 @@ struct BakedMaps {
     std::vector<MapTile> tiles; ///< by number
     std::size_t texels = 0;     ///< baked
     std::size_t overlaps = 0;   ///< baked texels with several faces, of which the first was used
+    std::size_t misses = 0;     ///< texels without a high mesh within reach
+    double reach = 0.0;         ///< of the projection, scene units; 0 without high meshes
     double thickest = 0.0;      ///< min(radius, diagonal), which images show as 1; scene units
+    Box box;                    ///< of the surface, scene units: positions in images are relative to it
     Baked baked;                ///< method, error, grids, times and warnings; its values are empty
 };
 
 /// Bakes the texels of all faces with UVs. A texel is covered by the first face that contains its centre, else by the
 /// first that touches it. Normals are those of corners or vertices in the file, interpolated; without them, means over
 /// faces within 40 degrees, so that edges are hard. NormalSource::angle and area smooth everything.
+///
+/// With high meshes, a texel gets the first face of theirs that looks outward, seen from MapOptions::reach in front of the
+/// mesh. Texels without one get the values of their neighbours.
 ///
 /// Cost: per texel as bake() of points; texels are many, so most are interpolated. Thread-safety as bake().
 /// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
@@ -73,7 +114,7 @@ enum class MapDepth { automatic, eight, sixteen, half, single };
 
 /// What a channel of a packed PNG holds: an attribute with one component, or a number.
 struct PackedChannel {
-    std::optional<Channel> attribute{};
+    std::optional<MapAttribute> attribute{};
     float number = 0.0f; ///< in [0, 1], without an attribute
 };
 
@@ -89,10 +130,14 @@ void check(const MapFileOptions& options, const std::filesystem::path& file);
 
 /// Writes a .png per attribute, or one .exr with a layer per attribute. ao goes to `file`, other attributes go to
 /// `name_<attribute>.png`; if the first attribute is not ao, it goes to `file`. `<UDIM>` in the name becomes the number
-/// of the tile. PNGs hold ao and convexity unchanged, thickness as a share of BakedMaps::thickest, and vectors as 0.5 +
-/// 0.5 v, all without an sRGB tag. Each file is written completely or not at all.
+/// of the tile. PNGs hold ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5
+/// h/reach, positions as shares of BakedMaps::box, object numbers as they are, and directions as 0.5 + 0.5 v, all without
+/// an sRGB tag. Each file is written completely or not at all.
 /// \return the files. \throw as check(); IoError if a file cannot be written.
 std::vector<std::filesystem::path> write_maps(const BakedMaps& maps, const std::filesystem::path& file,
                                               const MapFileOptions& options = {});
+
+/// Writes a .png per tile that is white where BakedMaps::misses are. \return the files. \throw as write_maps()
+std::vector<std::filesystem::path> write_miss_mask(const BakedMaps& maps, const std::filesystem::path& file);
 
 }

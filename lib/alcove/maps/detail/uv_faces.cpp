@@ -1,7 +1,7 @@
 #include "alcove/maps/detail/uv_faces.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/mesh/detail/corner_normals.h"
+#include "alcove/maps/detail/corner_shading.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
@@ -15,23 +15,6 @@ namespace alcove {
 namespace {
 
 constexpr int first_udim = 1001, udims_per_row = 10, udim_rows = 10;
-
-std::vector<std::array<Vec3, 3>> normals_of(const Mesh& mesh, std::span<const Triangle> triangles,
-                                            NormalSource source) {
-    if (source == NormalSource::automatic)
-        return corner_normals(mesh, triangles);
-    if (source == NormalSource::file) {
-        if (mesh.normals.empty())
-            throw InputError("--normals file needs normals in the file: use --normals auto");
-        return corner_normals(mesh, triangles);
-    }
-    const std::vector<Vec3> of_vertices = source == NormalSource::angle ? angle_weighted_normals(mesh, triangles)
-                                                                        : area_weighted_normals(mesh, triangles);
-    std::vector<std::array<Vec3, 3>> normals;
-    for (const Triangle& t : triangles)
-        normals.push_back({of_vertices[t[0]], of_vertices[t[1]], of_vertices[t[2]]});
-    return normals;
-}
 
 bool is_usable(const UvTriangle& uvs) {
     return std::all_of(uvs.begin(), uvs.end(), [](const Vec2& uv) {
@@ -61,7 +44,7 @@ UvFaces::UvFaces(const Mesh& mesh, NormalSource source) : mesh_(mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const std::vector<Triangle> corners = corners_of_triangles(mesh);
     const std::vector<std::uint32_t> faces = faces_of_triangles(mesh);
-    const std::vector<std::array<Vec3, 3>> normals = normals_of(mesh, triangles, source);
+    const std::vector<std::array<Vec3, 3>> normals = shading_normals(mesh, triangles, source);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         UvTriangle uvs;
         for (std::size_t k = 0; k < 3; ++k)
@@ -88,6 +71,22 @@ SurfacePoint UvFaces::point(std::uint32_t triangle, const Vec3d& weights) const 
     }
     point.normal = unit_or_zero(normal);
     return point;
+}
+
+void UvFaces::add_directions() {
+    vertex_normals_ = angle_weighted_normals(mesh_, triangulate(mesh_).triangles);
+}
+
+ProjectedFrom UvFaces::projected_from(std::uint32_t triangle, const Vec3d& weights) const {
+    ProjectedFrom from;
+    Vec3d direction(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double weight = weights[static_cast<int>(k)];
+        from.position += weight * mesh_.positions[vertices_[triangle][k]];
+        direction += weight * Vec3d(vertex_normals_[vertices_[triangle][k]]);
+    }
+    from.direction = unit_or_zero(direction);
+    return from;
 }
 
 void UvFaces::add_tangents() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/bake/bake.h"
+#include "alcove/maps/detail/projection.h"
 #include "alcove/maps/detail/rasterize.h"
 #include "alcove/maps/detail/tangent_frames.h"
 #include "alcove/mesh/mesh.h"
@@ -21,6 +22,10 @@ class UvFaces {
 
     std::span<const UvTriangle> uvs() const { return uvs_; }
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
+    /// Computes what projected_from() needs.
+    void add_directions();
+    /// The point, and the mean of the normals around its vertices: without gaps at hard edges.
+    ProjectedFrom projected_from(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what to_tangent() needs.
     void add_tangents();
     /// A direction in the frame that shaders interpolate between the corners. Zero if that has no area.
@@ -37,6 +42,7 @@ class UvFaces {
     std::vector<Triangle> vertices_;
     std::vector<std::array<Vec3, 3>> normals_;
     std::vector<TangentTriangle> tangents_;
+    std::vector<Vec3> vertex_normals_;
     std::size_t unusable_ = 0, flat_ = 0; // triangles with UVs that are not finite or far away, or without area
 };
 

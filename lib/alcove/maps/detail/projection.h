@@ -1,0 +1,53 @@
+/// Projects points of a low-poly mesh onto the surface of a high-poly mesh.
+#pragma once
+
+#include "alcove/bake/bake.h"
+#include "alcove/mesh/mesh.h"
+#include "alcove/occlusion/occluders.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// A point of the low mesh and the direction in which it is projected.
+struct ProjectedFrom {
+    Vec3d position{0.0};
+    Vec3 direction{0.0f}; ///< outward, unit length
+};
+
+/// Where a point lies on the high mesh.
+struct ProjectedTo {
+    SurfacePoint point;  ///< with the normal of the high mesh, smooth except at hard edges
+    float height = 0.0f; ///< along the direction, scene units
+    bool hit = false;
+};
+
+/// Const use is thread-safe.
+class Projection {
+  public:
+    /// Cost: about 0.3 µs per triangle. Keeps a reference to the mesh.
+    Projection(const Mesh& high, NormalSource normals);
+
+    /// Looks inward from `reach` (scene units) in front of each point to `reach` behind it, for the first face that
+    /// looks outward. Cost: about 0.5 µs per point.
+    std::vector<ProjectedTo> project(std::span<const ProjectedFrom> points, double reach) const;
+    /// Five times the distance within which 95 % of the points have the surface, in front or behind, among those that
+    /// have it within a tenth of its diagonal.
+    double reach_for(std::span<const ProjectedFrom> points) const;
+    double diagonal() const { return frame_.diagonal; }
+
+  private:
+    void project_block(std::span<const ProjectedFrom> points, double reach, const Vec2& shift,
+                       std::span<ProjectedTo> to) const; // those without a hit
+
+    const Mesh& mesh_;
+    Frame frame_;
+    std::vector<Triangle> triangles_;
+    std::vector<std::uint32_t> faces_;
+    std::vector<std::array<Vec3, 3>> normals_;
+    RaySurface surface_; // with corners of its own for each triangle, so that a hit tells the triangle
+};
+
+}
