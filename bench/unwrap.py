@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Unwraps a mesh for tests of texture maps: charts by the axis that a face points along, projected and packed in rows.
 
-    bench/unwrap.py INPUT.off|.obj OUTPUT.obj [--gap 0.002]
+    bench/unwrap.py INPUT.off|.obj OUTPUT.obj [--gap 0.002] [--cells N]
 
 Writes an OBJ with one texture coordinate per vertex and chart, and no normals. Polygons stay polygons.
 """
@@ -40,6 +40,27 @@ def normal(points, face):
     return sums
 
 
+def clustered(points, faces, cells):
+    """A coarser mesh: vertices in the same cell become one, `cells` cells along the longest side of the mesh."""
+    low = [min(p[k] for p in points) for k in range(3)]
+    cell = max(max(p[k] for p in points) - low[k] for k in range(3)) / cells
+    number, sums, vertex_of = {}, [], []
+    for p in points:
+        i = number.setdefault(tuple(int((p[k] - low[k]) / cell) for k in range(3)), len(number))
+        if i == len(sums):
+            sums.append([0.0, 0.0, 0.0, 0])
+        sums[i] = [sums[i][k] + p[k] for k in range(3)] + [sums[i][3] + 1]
+        vertex_of.append(i)
+    kept, known = [], set()
+    for face in faces:
+        corners = [vertex_of[v] for v in face]
+        key = tuple(sorted(corners))
+        if len(set(corners)) == len(corners) and key not in known:
+            known.add(key)
+            kept.append(corners)
+    return [tuple(s[k] / s[3] for k in range(3)) for s in sums], kept
+
+
 def charts(points, faces):
     """The chart of each face: connected faces that point along the same axis."""
     sides = []
@@ -69,8 +90,11 @@ def main():
     parser.add_argument('input')
     parser.add_argument('output')
     parser.add_argument('--gap', type=float, default=0.002, help='between charts, in UV')
+    parser.add_argument('--cells', type=int, help='cluster the vertices first, with this many cells along the longest side')
     arguments = parser.parse_args()
     points, faces = read(arguments.input)
+    if arguments.cells:
+        points, faces = clustered(points, faces, arguments.cells)
     chart, sides = charts(points, faces)
     flat = {}  # (chart, vertex) -> position in the plane of the chart
     boxes = {}
