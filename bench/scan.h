@@ -1,8 +1,8 @@
 /// The scan that the benchmarks use.
 #pragma once
 
-#include "alcove/mesh/normals.h"
 #include "alcove/mesh/files.h"
+#include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
 #include "subdivided.h"
 

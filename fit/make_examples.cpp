@@ -11,8 +11,8 @@
 #include "alcove/base/types.h"
 #include "alcove/field/detail/trace.h"
 #include "alcove/field/level_stack.h"
-#include "alcove/mesh/normals.h"
 #include "alcove/mesh/files.h"
+#include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/methods/calibrated_probes.h"
 

@@ -16,9 +16,9 @@
 #include "alcove/base/types.h"
 
 #include "alcove/mesh/diagnose.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/files.h"
 #include "alcove/mesh/triangulate.h"
 
 #include "alcove/grid/grid_stack.h"

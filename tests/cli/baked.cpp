@@ -1,7 +1,7 @@
 #include "baked.h"
 
-#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/files.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 
 #include <array>
 

@@ -4,8 +4,8 @@
 #include "program.h"
 #include "shapes.h"
 
-#include "alcove/mesh/normals.h"
 #include "alcove/mesh/files.h"
+#include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <cmath>

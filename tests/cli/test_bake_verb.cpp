@@ -1,8 +1,8 @@
 #include "baked.h"
 #include "program.h"
 
-#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/files.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// How users select estimators, their parameters and their channels.
 #include "program.h"
 
-#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/files.h"
+#include "alcove/mesh/formats/ply/ply_document.h"
 
 #include <fmt/format.h>
 

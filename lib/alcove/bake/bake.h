@@ -9,9 +9,9 @@
 #include "alcove/base/types.h"
 #include "alcove/grid/grid_stack.h"
 #include "alcove/grid/voxelize.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/mesh.h"
 #include "alcove/mesh/normals.h"
-#include "alcove/mesh/files.h"
 #include "alcove/occlusion/channels.h"
 
 #include <cstddef>

@@ -42,7 +42,7 @@ struct TargetResult {
     ChannelValues values; ///< lengths in the target's unit space
     MethodChoice choice;
     double evaluated = 1.0; ///< see Baked::evaluated
-    std::string reason; ///< see Baked::reason
+    std::string reason;     ///< see Baked::reason
     std::optional<double> rmse{};
     GridSummary grid;
     GridStack stack; ///< only if BakeTask::keep_grid

@@ -127,12 +127,8 @@ class Interpolator {
 
     void evaluate_at(const std::vector<std::uint32_t>& chosen) {
         std::vector<Surfel> some = pick(surfels_, chosen);
-        if (prepare_) {
-            std::vector<std::uint32_t> indices;
-            for (const std::uint32_t i : chosen)
-                indices.push_back(indices_[i]);
-            prepare_(indices, some);
-        }
+        if (prepare_)
+            prepare_(pick(indices_, chosen), some);
         std::vector<std::uint32_t> order(some.size());
         std::iota(order.begin(), order.end(), 0u);
         Progress progress;

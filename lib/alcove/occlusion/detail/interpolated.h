@@ -31,11 +31,9 @@ using PrepareSurfels = std::function<void(std::span<const std::uint32_t> indices
 /// values. The values depend neither on the number of threads nor on the order of the surfels. \return std::nullopt if
 /// more than `max_share` of the surfels would have to be evaluated. Cost: the method at a share of the surfels, and
 /// about 0.1 µs per surfel.
-std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> surfels,
-                                                        std::span<const std::uint32_t> order,
-                                                        const Occluders& occluders, const MethodRun& run,
-                                                        const Interpolation& interpolation,
-                                                        const PrepareSurfels& prepare = {},
-                                                        const Progress& progress = {});
+std::optional<InterpolatedValues>
+evaluate_interpolated(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const Occluders& occluders,
+                      const MethodRun& run, const Interpolation& interpolation, const PrepareSurfels& prepare = {},
+                      const Progress& progress = {});
 
 }

@@ -136,7 +136,8 @@ class ValueAdder {
         }
         if (!others.empty())
             for (const CornerReference& corner : corners)
-                mesh_.corner_normals.push_back(normal_of(corner) == 0 ? Vec3(0.0f) : values_.normals[corner.normal - 1]);
+                mesh_.corner_normals.push_back(normal_of(corner) == 0 ? Vec3(0.0f)
+                                                                      : values_.normals[corner.normal - 1]);
         add_sums(first, others);
     }
 
