@@ -102,6 +102,8 @@ void check_map_usage(const BakeVerb& verb, const std::string& output) {
         map.high.resize(verb.map.high.size()); // read later
         check(map);
         check(verb.map.files, output);
+        if (!verb.map.miss_mask.empty())
+            check_miss_mask(verb.map, output);
     });
     const AtomicFile probe(output); // to find out early
 }
@@ -189,8 +191,11 @@ class BakeJob {
     MapOptions map_options() const {
         MapOptions options = verb_.map.map;
         options.udim = file_.output.find("<UDIM>") != std::string::npos;
-        for (const std::string& high : verb_.map.high)
+        for (const std::string& high : verb_.map.high) {
             options.high.push_back(is_grid(high) ? surface_of(read_grids(high), high) : read_mesh(high));
+            for (const std::string& warning : options.high.back().warnings)
+                print_warnings({fmt::format("{}: {}", high, warning)}, verb_.common);
+        }
         return options;
     }
 
@@ -244,8 +249,8 @@ class BakeJob {
                         {"overlaps", or_null(maps.has_value(), maps ? maps->overlaps : 0)},
                         {"misses", or_null(maps && maps->reach > 0.0, maps ? maps->misses : 0)},
                         {"reach", or_null(maps && maps->reach > 0.0, maps ? maps->reach : 0.0)},
-                        {"attributes", names_of(baked.attributes)},
-                        {"method", baked.method.substr(0, baked.method.find(':'))},
+                        {"attributes", maps ? attributes_of(*maps) : names_of(baked.attributes)},
+                        {"method", or_null(!baked.method.empty(), baked.method.substr(0, baked.method.find(':')))},
                         {"samples", or_null(baked.samples.has_value(), baked.samples.value_or(0))},
                         {"evaluated", baked.evaluated},
                         {"reason", or_null(!baked.reason.empty(), baked.reason)},
@@ -293,6 +298,8 @@ void run(BakeVerb& verb) {
                 packed = packed | static_cast<Channel>(*channel.attribute);
             else if (channel.attribute)
                 verb.map.map.surface = verb.map.map.surface | *channel.attribute;
+        if (packed.empty() && verb.map.map.surface.empty())
+            throw UsageError("--pack needs at least one attribute, such as ao,1");
         verb.bake.attributes = packed;
     }
     check_usage(verb);

@@ -1,11 +1,13 @@
 #include "map_output.h"
 
+#include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <sstream>
 
 namespace alcove::cli {
@@ -167,10 +169,33 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         ->type_name("NAMES");
 }
 
-std::string summary_of(const BakedMaps& maps) {
+void check_miss_mask(const MapRequest& request, const std::string& output) {
+    const std::string& mask = request.miss_mask;
+    if (request.high.empty())
+        throw InputError("--miss-mask shows where no high mesh is found: give --high");
+    if (extension(mask) != ".png")
+        throw InputError(mask + ": the mask of misses is written as .png: use this extension");
+    const auto has_tiles = [](const std::string& file) { return file.find("<UDIM>") != std::string::npos; };
+    if (has_tiles(output) != has_tiles(mask))
+        throw InputError(mask + ": put <UDIM> into the names of both the output and the --miss-mask, or of neither");
+    const std::filesystem::path file(output);
+    const std::string stem = file.stem().string(), name = std::filesystem::path(mask).stem().string();
+    for (const std::string_view attribute : {"", "_convexity", "_bent_normal", "_thickness", "_normal", "_height",
+                                             "_position", "_object", "_ao_short", "_ao_long"})
+        if (name == stem + std::string(attribute))
+            throw InputError(mask + ": may be the name of a map: choose another name");
+    const AtomicFile probe(mask);
+}
+
+std::string attributes_of(const BakedMaps& maps) {
     std::string names;
     for (const MapLayer& layer : maps.tiles.front().layers)
         names += fmt::format("{}{}", names.empty() ? "" : ", ", info(layer.attribute).name);
+    return names;
+}
+
+std::string summary_of(const BakedMaps& maps) {
+    const std::string names = attributes_of(maps);
     return fmt::format("{} of {} texels of {} x {}{}{}", names, grouped(maps.texels), maps.width, maps.height,
                        maps.tiles.size() > 1 ? fmt::format(" in {} tiles", maps.tiles.size()) : "",
                        maps.reach > 0.0 ? fmt::format(", reach {:.4g}", maps.reach) : "");

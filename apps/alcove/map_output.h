@@ -23,6 +23,13 @@ bool is_map(const std::string& output);
 /// Adds --size, --subsamples, --margin, --depth, --space, --flip-green, --high, --reach, --miss-mask and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
+/// \throw InputError if the mask of misses is not a .png, would replace a map or lacks the tiles of the output, or if
+/// there is no high mesh; as AtomicFile if it cannot be written.
+void check_miss_mask(const MapRequest& request, const std::string& output);
+
+/// "ao, normal".
+std::string attributes_of(const BakedMaps& maps);
+
 /// "ao of 306,123 texels of 2048 x 2048".
 std::string summary_of(const BakedMaps& maps);
 

@@ -104,6 +104,13 @@ TEST_F(BakeMaps, AHighMeshIsBakedIntoTheUvsOfALowOne) {
     for (const char* name : {"a.png", "a_normal.png", "a_height.png", "a_object.png", "miss.png"})
         EXPECT_EQ(summarize_image(folder_ / (std::string("work/") + name)).width, 64) << name;
     EXPECT_EQ(run({"bake", "low.obj", "-o", "a.png", "--attributes", "normal"}).code, usage);
+    for (const char* mask : {"b.png", "b_normal.png", "m.exr", "m.<UDIM>.png"})
+        EXPECT_EQ(run({"bake", "low.obj", "--high", "high.ply", "-o", "b.png", "--miss-mask", mask}).code, usage)
+            << mask;
+    EXPECT_EQ(run({"bake", "low.obj", "-o", "b.png", "--miss-mask", "m.png"}).code, usage);
+    EXPECT_EQ(run({"bake", "low.obj", "--high", "high.ply", "-o", "b.png", "--miss-mask", "no/m.png"}).code, failure);
+    EXPECT_EQ(run({"bake", "low.obj", "--high", "high.ply", "-o", "b.png", "--reach", "inf"}).code, usage);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "work/b.png"));
     EXPECT_EQ(run({"bake", "low.obj", "-o", "a.png", "--reach", "0.1"}).code, usage);
     EXPECT_EQ(run({"bake", "low.obj", "-o", "a.ply", "--high", "high.ply"}).code, usage);
     const Outcome only_normals =

@@ -73,6 +73,16 @@ TEST(MapFiles, PngsHoldLinearValuesWithoutAColourSpace) {
     EXPECT_EQ(thickness.values, (std::vector<int>{0, 64, 128, 191, 255, 0}));
 }
 
+TEST(MapFiles, TheFirstAttributeHasTheGivenName) {
+    const ScratchFolder folder;
+    BakedMaps maps = small_maps();
+    maps.tiles[0].layers.erase(maps.tiles[0].layers.begin());
+    const auto files = write_maps(maps, folder / "map.png");
+    ASSERT_EQ(files.size(), 2u);
+    EXPECT_EQ(files[0].filename(), "map.png");
+    EXPECT_EQ(files[1].filename(), "map_thickness.png");
+}
+
 TEST(MapFiles, SixteenBits) {
     const ScratchFolder folder;
     const auto files = write_maps(small_maps(), folder / "map.png", {.depth = MapDepth::sixteen});

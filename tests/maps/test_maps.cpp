@@ -192,6 +192,14 @@ TEST(Maps, UdimTilesAreNumberedByTheirCorner) {
     EXPECT_EQ(first.tiles[0].coverage, all.tiles[0].coverage);
     EXPECT_TRUE(has_warning(first, "4 triangles lie partly or wholly outside the texture"));
     EXPECT_FALSE(has_warning(all, "outside the texture"));
+    // Rounding adds no tiles, and neither do tiles that a triangle only seems to reach.
+    Mesh triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.add_face(std::array<std::uint32_t, 3>{0, 1, 2});
+    triangle.corner_uvs = {{0, 0}, {1.000001f, 0}, {0, 1.000001f}};
+    EXPECT_EQ(bake_maps(triangle, {.method = "exact"}, {.width = 8, .height = 8, .udim = true}).tiles.size(), 1u);
+    triangle.corner_uvs = {{0, 0}, {3, 0}, {0, 3}};
+    EXPECT_LE(bake_maps(triangle, {.method = "exact"}, {.width = 8, .height = 8, .udim = true}).tiles.size(), 8u);
 }
 
 TEST(Maps, MalformedUvsAreCountedOrRefused) {
@@ -217,6 +225,10 @@ TEST(Maps, MalformedUvsAreCountedOrRefused) {
     EXPECT_THROW(bake_maps(box, {}, {.width = 20'000}), InputError);
     EXPECT_THROW(bake_maps(box, {}, {.subsamples = 9}), InputError);
     EXPECT_THROW(bake_maps(box, {}, {.margin = -1}), InputError);
+    MapOptions endless{.width = 8, .height = 8};
+    endless.high = {box};
+    endless.reach = Length("inf");
+    EXPECT_THROW(bake_maps(box, {}, endless), InputError);
 }
 
 TEST(Maps, ValuesDoNotDependOnThreads) {

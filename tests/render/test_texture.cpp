@@ -26,6 +26,12 @@ TEST(Texture, PngValuesAreTakenAsTheyAre) {
     EXPECT_NEAR(glm::length(read_texture(folder / "deep.png").texels[0] - Vec3(0, 0.5, 1)), 0.0f, 0.004f);
 }
 
+TEST(Texture, AlphaIsIgnored) {
+    const ScratchFolder folder;
+    write_bytes(folder / "a.png", encode_png_file(1, 1, 4, 8, std::vector<std::uint16_t>{51, 102, 255, 0}));
+    EXPECT_NEAR(glm::length(read_texture(folder / "a.png").texels[0] - Vec3(0.2f, 0.4f, 1.0f)), 0.0f, 1e-6f);
+}
+
 TEST(Texture, ExrGivesItsColours) {
     const ScratchFolder folder;
     const std::vector<float> red{0.25f, 2.0f}, green{0.5f, 0.0f}, blue{1.0f, -1.0f};
@@ -42,6 +48,8 @@ TEST(Texture, IsInterpolatedAndRepeats) {
     EXPECT_EQ(texture.at({0.75f, 0.25f}), Vec3(3.0f));
     EXPECT_EQ(texture.at({0.5f, 0.5f}), Vec3(1.5f));
     EXPECT_EQ(texture.at({1.25f, -0.25f}), texture.at({0.25f, 0.75f}));
+    const Vec3 far = texture.at({3e38f, -3e38f}); // any of its values
+    EXPECT_TRUE(far.x >= 0.0f && far.x <= 3.0f);
     EXPECT_EQ(texture.at({0.0f, 0.75f}), Vec3(0.5f)); // between the last and the first column
 }
 

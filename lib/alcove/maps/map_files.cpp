@@ -26,14 +26,14 @@ std::string extension_of(const fs::path& file) {
 
 fs::path of_tile(const fs::path& file, int udim) {
     std::string name = file.filename().string();
-    if (const std::size_t at = name.find(udim_mark); at != std::string::npos)
+    for (std::size_t at; (at = name.find(udim_mark)) != std::string::npos;)
         name.replace(at, udim_mark.size(), std::to_string(udim));
     return file.parent_path() / name;
 }
 
-/// The file of an attribute: the given one for ao or a single attribute.
-fs::path of_attribute(const fs::path& file, std::string_view attribute, bool single) {
-    if (single || attribute == "ao")
+/// The file of an attribute: the given one for the first. Layers begin with ao if there is any.
+fs::path of_attribute(const fs::path& file, std::string_view attribute, bool is_first) {
+    if (is_first)
         return file;
     std::string stem = file.stem().string();
     const std::size_t at = stem.find(udim_mark); // NAME.<UDIM>.png becomes NAME_attribute.<UDIM>.png
@@ -120,7 +120,7 @@ std::vector<fs::path> write_pngs(const BakedMaps& maps, const MapTile& tile, con
     std::vector<fs::path> written;
     for (const MapLayer& layer : tile.layers) {
         const fs::path path =
-            of_tile(of_attribute(file, info(layer.attribute).name, tile.layers.size() == 1), tile.udim);
+            of_tile(of_attribute(file, info(layer.attribute).name, &layer == &tile.layers.front()), tile.udim);
         write_file(path, encoded(maps, layer, bits));
         written.push_back(path);
     }

@@ -107,6 +107,8 @@ class MapBake {
         if (options_.reach)
             return double(options_.reach->to_unit(projection_->diagonal())) * projection_->diagonal();
         constexpr std::size_t sample = 4096; // points, spread over triangles
+        if (faces_.uvs().empty())
+            return 0.0;
         const std::size_t count = faces_.uvs().size(), stride = std::max<std::size_t>(count / sample, 1);
         const auto steps = static_cast<int>(std::ceil(std::sqrt(2.0 * static_cast<double>(sample) / double(count))));
         std::vector<ProjectedFrom> points;
@@ -125,18 +127,17 @@ class MapBake {
         return count;
     }
 
-    /// Refuses maps that do not fit, and sets the size of batches.
-    void check_memory(std::size_t tiles) {
+    /// Refuses maps that do not fit.
+    void check_memory(std::size_t tiles) const {
         const double samples = double(texels_) * options_.subsamples * options_.subsamples;
         const double values = double(tiles) * double(texels_) * (4.0 * double(components()) + 1.0);
         const double bytes = values + bytes_per_sample * samples + bytes_per_texel * double(texels_) +
-                             bytes_per_point * double(fewest_in_batch);
+                             bytes_per_point * std::min(samples, double(batch));
         if (bytes > memory_limit())
             throw LimitError(fmt::format("maps of {} x {} texels need about {} GB, over the limit of {} GB: choose a "
                                          "smaller --size or fewer --subsamples, or raise --max-memory",
                                          options_.width, options_.height, rounded(bytes / 1e9, 2),
                                          rounded(memory_limit() / 1e9, 2)));
-        batch_ = std::max(fewest_in_batch, static_cast<std::size_t>(0.5 * (memory_limit() - bytes) / bytes_per_point));
     }
 
     UvTile tile_of(int udim) const {
@@ -147,7 +148,11 @@ class MapBake {
     void bake_tile(int udim) {
         const UvTile tile = tile_of(udim);
         const TexelOwners owners = rasterize(faces_.uvs(), tile);
-        maps_.overlaps += owners.overlaps;
+        if (options_.udim && std::all_of(owners.triangles.begin(), owners.triangles.end(),
+                                         [](std::uint32_t t) { return t == no_triangle; }))
+            return;
+        const auto samples_per_texel = static_cast<std::size_t>(options_.subsamples * options_.subsamples);
+        maps_.overlaps += owners.overlaps / samples_per_texel;
         MapTile& map = maps_.tiles.emplace_back();
         map.udim = udim;
         for (const MapAttribute attribute : attributes_)
@@ -164,7 +169,7 @@ class MapBake {
             if (owners.triangles[i] != no_triangle) {
                 samples.push_back(static_cast<std::uint32_t>(i));
                 wanted[texel_of(i)] = 1;
-                if (samples.size() == batch_)
+                if (samples.size() == batch)
                     flush();
             }
         flush();
@@ -354,14 +359,14 @@ class MapBake {
         maps_.baked.warnings.insert(maps_.baked.warnings.begin(), warnings.begin(), warnings.end());
     }
 
-    static constexpr std::size_t fewest_in_batch = 1 << 20;
+    // Not by the memory that there is: each batch is planned by itself, and the values must not depend on the machine.
+    static constexpr std::size_t batch = 1 << 23;
 
     const Mesh& mesh_;
     const MapOptions& options_;
     BakeOptions bake_;
     UvFaces faces_;
     std::size_t width_, texels_; // of the map; texels per tile
-    std::size_t batch_ = fewest_in_batch;
     std::vector<MapAttribute> attributes_;
     std::optional<Mesh> high_;
     std::optional<Projection> projection_;
@@ -399,6 +404,8 @@ void check(const MapOptions& options) {
                                      most_subsamples, most_texels));
     if (options.margin && *options.margin < 0)
         throw InputError("--margin takes a number of texels, none or all");
+    if (options.reach && !std::isfinite(options.reach->value))
+        throw InputError("--reach takes a finite length");
     if (options.high.empty() && (!options.surface.empty() || options.reach))
         throw InputError("normal, height, position and object are those of a high mesh, and --reach is for one: give "
                          "--high");

@@ -128,8 +128,8 @@ struct MapFileOptions {
 void check(const MapOptions& options);
 void check(const MapFileOptions& options, const std::filesystem::path& file);
 
-/// Writes a .png per attribute, or one .exr with a layer per attribute. ao goes to `file`, other attributes go to
-/// `name_<attribute>.png`; if the first attribute is not ao, it goes to `file`. `<UDIM>` in the name becomes the number
+/// Writes a .png per attribute, or one .exr with a layer per attribute. The first attribute, ao if there is any,
+/// goes to `file`, the others go to `name_<attribute>.png`. `<UDIM>` in the name becomes the number
 /// of the tile. PNGs hold ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5
 /// h/reach, positions as shares of BakedMaps::box, object numbers as they are, and directions as 0.5 + 0.5 v, all without
 /// an sRGB tag. Each file is written completely or not at all.

@@ -104,12 +104,16 @@ double Projection::reach_for(std::span<const ProjectedFrom> points) const {
         parallel_for(from.size(), RayBatch::capacity, [&](std::size_t begin, std::size_t end) {
             RayBatch rays;
             std::array<SurfaceHit, RayBatch::capacity> hits;
+            std::array<std::size_t, RayBatch::capacity> owner;
             for (std::size_t i = begin; i < end; ++i)
-                rays.push_back({frame_.to_unit(from[i].position), from[i].direction}, 0.0f);
+                if (from[i].direction != Vec3(0.0f)) {
+                    owner[rays.count] = i;
+                    rays.push_back({frame_.to_unit(from[i].position), from[i].direction}, 0.0f);
+                }
             surface_.find_nearest(rays, static_cast<float>(furthest), hits);
-            for (std::size_t i = begin; i < end; ++i)
-                if (rays.hit[i - begin])
-                    nearest[i] = rays.travelled[i - begin];
+            for (std::size_t r = 0; r < rays.count; ++r)
+                if (rays.hit[r])
+                    nearest[owner[r]] = rays.travelled[r];
         });
         if (distances.empty())
             distances = std::move(nearest);

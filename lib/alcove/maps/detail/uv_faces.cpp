@@ -14,6 +14,7 @@
 namespace alcove {
 namespace {
 
+constexpr float rounding = 1e-5f; // of UVs
 constexpr int first_udim = 1001, udims_per_row = 10, udim_rows = 10;
 
 bool is_usable(const UvTriangle& uvs) {
@@ -117,7 +118,8 @@ std::vector<int> UvFaces::tiles(bool udim) const {
     for (const UvTriangle& uvs : uvs_) {
         const UvBox box(uvs);
         // A triangle that ends at the border of a tile does not reach the next.
-        const auto first = glm::ivec2(glm::floor(glm::max(box.low, 0.0f))), last = glm::ivec2(glm::ceil(box.high)) - 1;
+        const auto first = glm::ivec2(glm::floor(glm::max(box.low + rounding, 0.0f))),
+                   last = glm::ivec2(glm::ceil(box.high - rounding)) - 1;
         for (int v = first.y; v <= std::min(last.y, udim_rows - 1); ++v)
             for (int u = first.x; u <= std::min(last.x, udims_per_row - 1); ++u)
                 numbers.insert(first_udim + u + udims_per_row * v);
@@ -130,7 +132,6 @@ std::vector<std::string> UvFaces::warnings(bool udim) const {
     std::size_t outside = 0;
     for (const UvTriangle& uvs : uvs_) {
         const UvBox box(uvs);
-        constexpr float rounding = 1e-5f;
         outside += box.low.x < -rounding || box.low.y < -rounding || box.high.x > most.x + rounding ||
                    box.high.y > most.y + rounding;
     }

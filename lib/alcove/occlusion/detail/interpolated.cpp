@@ -213,7 +213,7 @@ class Interpolator {
     void interpolate_at(std::size_t i, const FitSources::Arrays& near, float reach) {
         constexpr float least_weight = 0.5f; // less than one source close by
         const LocalFit fit = local_fit(near, surfels_[i], reach, used_);
-        if (fit.weight < least_weight || fit.deviation > interpolation_.tolerance)
+        if (!(fit.weight >= least_weight) || !(fit.deviation <= interpolation_.tolerance)) // also NaN
             return;
         states_[i] = State::interpolated;
         values_[i][0] = std::clamp(fit.values[0], 0.0f, 1.0f);

@@ -30,13 +30,13 @@ std::optional<Texture> read_png(const std::filesystem::path& file) {
     if (!png_image_begin_read_from_file(&png, file.c_str()))
         return {};
     png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB; // no conversion from linear values
-    png.format = PNG_FORMAT_RGB;
+    png.format = PNG_FORMAT_RGBA;           // alpha is ignored: it may be a packed attribute
     Texture texture = texture_of_size(file, png.width, png.height);
     std::vector<png_byte> bytes(PNG_IMAGE_SIZE(png));
     if (!png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr))
         throw InputError(fmt::format("{}: a damaged PNG ({}): write it again", file.string(), png.message));
     for (std::size_t i = 0; i < texture.texels.size(); ++i)
-        texture.texels[i] = Vec3(bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2]) / 255.0f;
+        texture.texels[i] = Vec3(bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2]) / 255.0f;
     return texture;
 }
 
@@ -64,10 +64,12 @@ Texture read_exr(const std::filesystem::path& file) {
 
 Vec3 Texture::at(const Vec2& uv) const {
     const auto cell = [](float position, int size) {
-        const auto wrapped = static_cast<int>(std::fmod(position, static_cast<float>(size)));
-        return wrapped < 0 ? wrapped + size : wrapped;
+        const int whole = static_cast<int>(position) % size;
+        return whole < 0 ? whole + size : whole;
     };
-    const float x = uv.x * static_cast<float>(width) - 0.5f, y = (1.0f - uv.y) * static_cast<float>(height) - 0.5f;
+    const Vec2 repeated = uv - glm::floor(uv); // before it is scaled: UVs may be huge
+    const float x = repeated.x * static_cast<float>(width) - 0.5f,
+                y = (1.0f - repeated.y) * static_cast<float>(height) - 0.5f;
     const float left = std::floor(x), top = std::floor(y), right_share = x - left, lower_share = y - top;
     const auto texel = [&](float column, float row) {
         return texels[static_cast<std::size_t>(cell(row, height)) * static_cast<std::size_t>(width) +
