@@ -151,8 +151,8 @@ class MapBake {
         if (options_.udim && std::all_of(owners.triangles.begin(), owners.triangles.end(),
                                          [](std::uint32_t t) { return t == no_triangle; }))
             return;
-        const auto samples_per_texel = static_cast<std::size_t>(options_.subsamples * options_.subsamples);
-        maps_.overlaps += owners.overlaps / samples_per_texel;
+        const auto per_side = static_cast<std::size_t>(options_.subsamples);
+        maps_.overlaps += owners.overlaps / (per_side * per_side);
         MapTile& map = maps_.tiles.emplace_back();
         map.udim = udim;
         for (const MapAttribute attribute : attributes_)
