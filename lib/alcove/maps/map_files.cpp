@@ -42,10 +42,10 @@ fs::path of_attribute(const fs::path& file, std::string_view attribute, bool is_
     return file.parent_path() / (stem + file.extension().string());
 }
 
-/// Turns the values of a layer into those of a PNG.
-class Shown {
+/// The values of a layer as a PNG stores them.
+class PngValues {
   public:
-    Shown(const BakedMaps& maps, const MapLayer& layer, int bits)
+    PngValues(const BakedMaps& maps, const MapLayer& layer, int bits)
         : maps_(maps), layer_(layer), components_(info(layer.attribute).components), most_((1 << bits) - 1) {}
 
     /// The i-th value of the layer.
@@ -80,10 +80,10 @@ class Shown {
 };
 
 std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {
-    const Shown shown(maps, layer, bits);
+    const PngValues png(maps, layer, bits);
     std::vector<std::uint16_t> values(layer.values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = shown(i);
+        values[i] = png(i);
     return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.attribute).components), bits, values);
 }
 
@@ -103,9 +103,9 @@ std::string packed(const BakedMaps& maps, const MapTile& tile, std::span<const P
         });
         if (layer == tile.layers.end())
             throw InputError(fmt::format("{} was not baked, so it cannot be packed", info(*pack[c].attribute).name));
-        const Shown shown(maps, *layer, bits);
+        const PngValues png(maps, *layer, bits);
         for (std::size_t i = 0; i < texels; ++i)
-            values[channels * i + c] = shown(i);
+            values[channels * i + c] = png(i);
     }
     return encode_png_file(maps.width, maps.height, static_cast<int>(channels), bits, values);
 }
@@ -159,7 +159,8 @@ void write_exr(const BakedMaps& maps, const MapTile& tile, const fs::path& file,
     }
     ImageHeader header;
     header.software = "alcove " ALCOVE_VERSION;
-    header.comments = fmt::format("ambient occlusion by {}, radius {:.6g}", maps.baked.method, maps.baked.radius);
+    if (!maps.baked.method.empty())
+        header.comments = fmt::format("ambient occlusion by {}, radius {:.6g}", maps.baked.method, maps.baked.radius);
     write_exr_file(maps.width, maps.height, channels, header, false, file);
 }
 

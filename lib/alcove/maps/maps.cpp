@@ -2,7 +2,6 @@
 
 #include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
-#include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
 #include "alcove/maps/detail/padding.h"
 #include "alcove/maps/detail/rasterize.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace alcove {
 namespace {
@@ -21,23 +19,21 @@ constexpr double bytes_per_point = 260.0; // measured: a bake of points
 constexpr double bytes_per_sample = 7.0;  // rasterizing
 constexpr double bytes_per_texel = 10.0;  // coverage, padding, counts
 constexpr int largest_side = 16384, most_subsamples = 8;
-constexpr int first_udim = 1001;
 
-/// The faces of several meshes as one mesh, with the normals and UVs that all of them have.
+/// The faces of several meshes as one mesh, with normals if all of them have some.
 Mesh united(std::span<const Mesh> meshes) {
-    Mesh all = meshes.front();
-    all.source.reset();
-    for (const Mesh& mesh : meshes.subspan(1)) {
+    Mesh all;
+    all.name = meshes.front().name;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    const auto append_of_all = [&](std::vector<Vec3> Mesh::*normals) {
+        if (std::none_of(meshes.begin(), meshes.end(), [&](const Mesh& mesh) { return (mesh.*normals).empty(); }))
+            for (const Mesh& mesh : meshes)
+                append(all.*normals, mesh.*normals);
+    };
+    append_of_all(&Mesh::normals);
+    append_of_all(&Mesh::corner_normals);
+    for (const Mesh& mesh : meshes) {
         const auto first = static_cast<std::uint32_t>(all.positions.size());
-        const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-        if (mesh.normals.empty() != all.normals.empty())
-            all.normals.clear();
-        else
-            append(all.normals, mesh.normals);
-        if (mesh.corner_normals.empty() != all.corner_normals.empty())
-            all.corner_normals.clear();
-        else
-            append(all.corner_normals, mesh.corner_normals);
         append(all.positions, mesh.positions);
         for (const std::uint32_t corner : mesh.corners)
             all.corners.push_back(first + corner);
@@ -47,7 +43,7 @@ Mesh united(std::span<const Mesh> meshes) {
     return all;
 }
 
-/// Bakes the tiles one after another, in batches of texels that fit in memory.
+/// Bakes the tiles one after another, in batches of samples.
 class MapBake {
   public:
     MapBake(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options)
@@ -62,7 +58,10 @@ class MapBake {
              {MapAttribute::normal, MapAttribute::height, MapAttribute::position, MapAttribute::object})
             if (options.surface.has(attribute))
                 attributes_.push_back(attribute);
-        if (has_tangents())
+        has_tangents_ = options.space == MapSpace::tangent &&
+                        std::any_of(attributes_.begin(), attributes_.end(),
+                                    [](MapAttribute attribute) { return info(attribute).is_direction; });
+        if (has_tangents_)
             faces_.add_tangents();
         if (!options.high.empty()) {
             high_ = united(options.high);
@@ -94,12 +93,6 @@ class MapBake {
     }
 
   private:
-    bool has_tangents() const {
-        return options_.space == MapSpace::tangent &&
-               std::any_of(attributes_.begin(), attributes_.end(),
-                           [](MapAttribute attribute) { return info(attribute).is_direction; });
-    }
-
     /// The mesh whose surface is baked.
     const Mesh& surface() const { return high_ ? *high_ : mesh_; }
 
@@ -142,7 +135,7 @@ class MapBake {
 
     UvTile tile_of(int udim) const {
         const int number = udim - first_udim, n = options_.subsamples;
-        return {n * options_.width, n * options_.height, Vec2(number % 10, number / 10)};
+        return {n * options_.width, n * options_.height, Vec2(number % udims_per_row, number / udims_per_row)};
     }
 
     void bake_tile(int udim) {
@@ -257,7 +250,7 @@ class MapBake {
                          const std::vector<std::uint32_t>& hit, std::vector<float>& directions) const {
         for (std::size_t i = 0; i < hit.size(); ++i) {
             float* const d = &directions[3 * i];
-            if (has_tangents()) {
+            if (has_tangents_) {
                 const std::uint32_t sample = samples[hit[i]], triangle = owners.triangles[sample];
                 const Vec3 local =
                     faces_.to_tangent(triangle, weights_at(faces_.uvs()[triangle], tile, sample), {d[0], d[1], d[2]});
@@ -329,9 +322,9 @@ class MapBake {
         for (std::size_t i = 0; i < texels_; ++i)
             for (std::size_t c = 0; c < components && coverage[i] != Coverage::face; ++c)
                 layer.values[components * i + c] =
-                    coverage[i] != Coverage::background                  ? layer.values[components * nearest[i] + c]
-                    : attribute.is_direction && c == 2 && has_tangents() ? 1.0f // the normal
-                                                                         : attribute.missing;
+                    coverage[i] != Coverage::background                 ? layer.values[components * nearest[i] + c]
+                    : attribute.is_direction && c == 2 && has_tangents_ ? 1.0f // the normal
+                                                                        : attribute.missing;
     }
 
     static void take_mean(std::span<float> sums, std::uint16_t count, bool is_direction) {
@@ -368,6 +361,7 @@ class MapBake {
     UvFaces faces_;
     std::size_t width_, texels_; // of the map; texels per tile
     std::vector<MapAttribute> attributes_;
+    bool has_tangents_ = false; // directions are turned into tangent space
     std::optional<Mesh> high_;
     std::optional<Projection> projection_;
     std::vector<std::size_t> object_ends_; // of the high meshes, in the faces of high_

@@ -74,7 +74,7 @@ struct MapLayer {
 };
 
 enum class Coverage : std::uint8_t {
-    background, ///< ChannelInfo::missing
+    background, ///< MapAttributeInfo::missing
     face,       ///< baked
     margin,     ///< the value of the nearest baked texel
     miss,       ///< the same, because no high mesh is within reach
@@ -102,8 +102,8 @@ struct BakedMaps {
 /// first that touches it. Normals are those of corners or vertices in the file, interpolated; without them, means over
 /// faces within 40 degrees, so that edges are hard. NormalSource::angle and area smooth everything.
 ///
-/// With high meshes, a texel gets the first face of theirs that looks outward, seen from MapOptions::reach in front of the
-/// mesh. Texels without one get the values of their neighbours.
+/// With high meshes, each texel looks inward from MapOptions::reach in front of the mesh, and gets the first of their faces
+/// that looks outward. Texels without one get the values of their neighbours.
 ///
 /// Cost: per texel as bake() of points; texels are many, so most are interpolated. Thread-safety as bake().
 /// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
@@ -128,9 +128,8 @@ struct MapFileOptions {
 void check(const MapOptions& options);
 void check(const MapFileOptions& options, const std::filesystem::path& file);
 
-/// Writes a .png per attribute, or one .exr with a layer per attribute. The first attribute, ao if there is any,
-/// goes to `file`, the others go to `name_<attribute>.png`. `<UDIM>` in the name becomes the number
-/// of the tile. PNGs hold ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5
+/// Writes a .png per attribute, or one .exr with a layer per attribute. The first attribute, ao if there is any, goes to
+/// `file`, the others go to `name_<attribute>.png`. `<UDIM>` in the name becomes the number of the tile. PNGs hold ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5
 /// h/reach, positions as shares of BakedMaps::box, object numbers as they are, and directions as 0.5 + 0.5 v, all without
 /// an sRGB tag. Each file is written completely or not at all.
 /// \return the files. \throw as check(); IoError if a file cannot be written.

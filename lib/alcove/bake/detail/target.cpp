@@ -29,8 +29,8 @@ OccluderNeeds needs_of(const Method& method, ChannelSet wanted, bool has_contact
 /// Refuses a bake that would clearly miss the deadline. Estimates its time from a trial of 128 surfels spread over the
 /// mesh and doubles their number while the outcome is uncertain. All trials together bake at most a quarter of the
 /// surfels; fewer than about a thousand surfels are not checked.
-void check_time(const Deadline& deadline, std::span<const Surfel> surfels, const Occluders& occluders,
-                const MethodChoice& choice, Settings settings, ChannelSet wanted) {
+void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
+                const Occluders& occluders, const MethodChoice& choice, Settings settings, ChannelSet wanted) {
     constexpr std::size_t max_batches = 64, min_stride = 8;
     constexpr int max_samples = 1024; // of the trial; the time is proportional to them
     constexpr double certain = 2.0;   // ratio to the limit, in either direction
@@ -43,7 +43,6 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, const
         settings.parameters.emplace_back(parameter_of(choice.method->samples_are), max_samples);
         samples_left_out = static_cast<double>(choice.samples) / max_samples;
     }
-    const std::vector<std::uint32_t> order = spatial_order(surfels);
     const std::size_t batches = order.size() / SurfelBatch::capacity;
     double seconds = 0.0; // of all surfels
     for (std::size_t count = 2; count <= max_batches && count * min_stride <= batches; count *= 2) {
@@ -157,6 +156,12 @@ class TargetBake {
 
     bool has_pilot() const { return task_.pilot && task_.attributes.has(Channel::ao); }
 
+    Progress baking_progress() const {
+        if (!progress_)
+            return {};
+        return [this](double done) { progress_("baking", done); };
+    }
+
     const std::vector<std::uint32_t>& order() {
         if (order_.empty())
             order_ = spatial_order(target_.surfels);
@@ -202,10 +207,8 @@ class TargetBake {
         const Occluders occluders = occluders_.get(needs, largest_voxel);
         last_voxel_ = largest_voxel;
         if (!task_.error)
-            check_time(task_.deadline, target_.surfels, occluders, choice, settings, task_.attributes);
-        Progress progress;
-        if (progress_)
-            progress = [&](double done) { progress_("baking", done); };
+            check_time(task_.deadline, target_.surfels, order(), occluders, choice, settings, task_.attributes);
+        const Progress progress = baking_progress();
         Stopwatch watch;
         result_.values =
             evaluate(target_.surfels, order(), occluders, *choice.method, settings, task_.attributes, progress);
@@ -237,9 +240,7 @@ class TargetBake {
         const Method& method = *plan.choice.method;
         const Settings settings = settings_of(plan.choice);
         const Occluders occluders = occluders_.get(needs_of(method, task_.attributes), largest_voxel);
-        Progress progress;
-        if (progress_)
-            progress = [&](double done) { progress_("baking", done); };
+        const Progress progress = baking_progress();
         const std::vector<MethodRun> runs = runs_for(method, settings, task_.attributes);
         const auto prepare = [&](std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
             find_contacts(indices, surfels);

@@ -2,7 +2,7 @@
 
 #include "alcove/base/parallel.h"
 #include "alcove/field/detail/trace.h"
-#include "alcove/maps/detail/corner_shading.h"
+#include "alcove/mesh/detail/corner_normals.h"
 #include "alcove/mesh/normals.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/detail/directions.h"
@@ -31,7 +31,7 @@ RaySurface split_surface(const Mesh& mesh, const std::vector<Triangle>& triangle
 
 Projection::Projection(const Mesh& high, NormalSource normals)
     : mesh_(high), frame_(frame_of(high.box())), triangles_(triangulate(high).triangles),
-      faces_(faces_of_triangles(high)), normals_(shading_normals(high, triangles_, normals)),
+      faces_(faces_of_triangles(high)), normals_(corner_normals(high, triangles_, normals)),
       surface_(split_surface(high, triangles_, frame_)) {}
 
 std::vector<ProjectedTo> Projection::project(std::span<const ProjectedFrom> points, double reach) const {

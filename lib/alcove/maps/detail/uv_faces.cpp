@@ -1,7 +1,7 @@
 #include "alcove/maps/detail/uv_faces.h"
 
 #include "alcove/base/detail/messages.h"
-#include "alcove/maps/detail/corner_shading.h"
+#include "alcove/mesh/detail/corner_normals.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace alcove {
 namespace {
 
 constexpr float rounding = 1e-5f; // of UVs
-constexpr int first_udim = 1001, udims_per_row = 10, udim_rows = 10;
+constexpr int udim_rows = 10;
 
 bool is_usable(const UvTriangle& uvs) {
     return std::all_of(uvs.begin(), uvs.end(), [](const Vec2& uv) {
@@ -45,7 +45,7 @@ UvFaces::UvFaces(const Mesh& mesh, NormalSource source) : mesh_(mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const std::vector<Triangle> corners = corners_of_triangles(mesh);
     const std::vector<std::uint32_t> faces = faces_of_triangles(mesh);
-    const std::vector<std::array<Vec3, 3>> normals = shading_normals(mesh, triangles, source);
+    const std::vector<std::array<Vec3, 3>> normals = corner_normals(mesh, triangles, source);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         UvTriangle uvs;
         for (std::size_t k = 0; k < 3; ++k)

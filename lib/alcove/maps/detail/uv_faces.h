@@ -14,6 +14,9 @@
 
 namespace alcove {
 
+/// The UDIM tile whose lower left corner is u, v has the number 1001 + u + 10 v.
+inline constexpr int first_udim = 1001, udims_per_row = 10;
+
 /// The triangles with usable UVs. Const use is thread-safe.
 class UvFaces {
   public:

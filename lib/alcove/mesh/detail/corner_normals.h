@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/mesh/mesh.h"
+#include "alcove/mesh/normals.h"
 
 #include <array>
 
@@ -12,5 +13,10 @@ namespace alcove {
 /// vertices of more than 256 faces, the normal of the triangle. All vertices of the triangles must be finite, as
 /// triangulate() ensures. Cost: linear in the triangles, times the number of triangles around a vertex.
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles);
+
+/// The same for a source. `automatic` and `file`: as above; `angle` and `area`: one normal per vertex. \throw InputError
+/// if `source` is `file` and the mesh has no normals.
+std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles,
+                                                NormalSource source);
 
 }

@@ -19,31 +19,18 @@ namespace {
 constexpr std::size_t block = 64; // surfels along the curve that share their sources
 constexpr std::size_t grain = 4096;
 
-bool is_same(const Surfel& a, const Surfel& b) {
-    return a.position == b.position && a.normal == b.normal && a.away == b.away && a.covered == b.covered;
-}
-
 /// The surfels where the method was evaluated.
 struct Sources {
     HugeVector<Surfel> surfels;
     HugeVector<SurfelValues> values;
     HugeVector<std::uint32_t> ranks; // ascending
-    HugeVector<float> spacings;      // median distance to eight neighbours along the curve
+    HugeVector<float> spacings;      // see median_spacing()
 
     void add_spacings() {
-        constexpr std::size_t half = 4;
         spacings.resize(surfels.size());
         parallel_for(surfels.size(), grain, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                std::array<float, 2 * half> distances{};
-                std::size_t count = 0;
-                for (std::size_t k = i - std::min(i, half); k < std::min(i + half + 1, surfels.size()); ++k)
-                    if (k != i)
-                        distances[count++] = glm::length(surfels[k].position - surfels[i].position);
-                const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(count / 2);
-                std::nth_element(distances.begin(), middle, distances.begin() + static_cast<std::ptrdiff_t>(count));
-                spacings[i] = *middle;
-            }
+            for (std::size_t i = begin; i < end; ++i)
+                spacings[i] = median_spacing(surfels, i);
         });
     }
 
@@ -109,7 +96,7 @@ class Interpolator {
         return true;
     }
 
-    /// Of the surfels, evaluated.
+    /// The share of the surfels that were evaluated.
     double share() const {
         return static_cast<double>(evaluated_) / static_cast<double>(std::max<std::size_t>(surfels_.size(), 1));
     }

@@ -3,6 +3,7 @@
 #include "alcove/base/detail/memory.h"
 #include "alcove/field/detail/trace.h"
 #include "alcove/occlusion/detail/ridge_regression.h"
+#include "alcove/occlusion/detail/subset.h"
 #include "alcove/occlusion/methods/calibrated_networks.h"
 
 #include <algorithm>
@@ -21,10 +22,6 @@ constexpr float open_length = 2.0f / 3.0f;
 float variance_of(float open) {
     const float p = std::clamp(open, 0.05f, 0.95f);
     return p * (1.0f - p);
-}
-
-bool is_same(const Surfel& a, const Surfel& b) {
-    return a.position == b.position && a.normal == b.normal && a.away == b.away && a.covered == b.covered;
 }
 
 /// The weight of a surfel's own rays against the filtered value (James and Stein 1961): 0 if noise explains the
@@ -194,21 +191,7 @@ Curve JointBilateral::curve() const {
 }
 
 float JointBilateral::reach(std::size_t i) const {
-    std::array<float, 8> distances;
-    std::size_t count = 0;
-    for (std::size_t k = i - std::min<std::size_t>(i, 4); k < std::min(i + 5, surfels_.size()); ++k)
-        if (k != i)
-            distances[count++] = glm::length(surfels_[k].position - surfels_[i].position);
-    if (count == 0)
-        return 1.0f;
-    // A partial sort up to the median, branchless because these branches are unpredictable.
-    for (std::size_t sorted = 0; sorted <= count / 2; ++sorted)
-        for (std::size_t k = count - 1; k > sorted; --k) {
-            const float a = distances[k - 1], b = distances[k];
-            distances[k - 1] = std::min(a, b);
-            distances[k] = std::max(a, b);
-        }
-    return std::max(spacings_ * distances[count / 2], 1e-6f);
+    return surfels_.size() > 1 ? std::max(spacings_ * median_spacing(surfels_, i), 1e-6f) : 1.0f;
 }
 
 }

@@ -1,4 +1,4 @@
-/// Evenly spread subsets.
+/// Surfels along a curve and subsets of them.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -8,6 +8,12 @@
 #include <vector>
 
 namespace alcove {
+
+/// Whether two surfels get the same values.
+bool is_same(const Surfel& a, const Surfel& b);
+
+/// The median distance from surfel `i` to the four before and the four after it along a curve; 0 without any.
+float median_spacing(std::span<const Surfel> curve, std::size_t i);
 
 /// At most `max_count` of the items, at even steps.
 std::vector<std::uint32_t> evenly(std::span<const std::uint32_t> items, std::size_t max_count);
