@@ -3,8 +3,10 @@
 
     make_corpus.py PROGRAM
 
-PROGRAM is build/alcove; it makes one of the level sets.
+PROGRAM is build/alcove; it makes one of the level sets. gltfpack and draco_encoder (Debian: draco) make two of the scenes.
 """
+import base64
+import json
 import os
 import struct
 import subprocess
@@ -42,6 +44,81 @@ def stl(title):
         data += struct.pack("<3f", 0, 0, 1) + b"".join(struct.pack("<3f", *POINTS[c]) for c in corners) + \
             struct.pack("<H", 0x7c00)
     return data
+
+
+def glb(meshes, nodes, views, accessors, binary, **more):
+    scene = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}], "nodes": nodes,
+             "meshes": meshes, "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(binary)}]}
+    scene.update(more)
+    words = json.dumps(scene).encode()
+    words += b" " * (-len(words) % 4)
+    binary += bytes(-len(binary) % 4)
+    return (b"glTF" + struct.pack("<2I", 2, 28 + len(words) + len(binary)) + struct.pack("<I", len(words)) + b"JSON" + words +
+            struct.pack("<I", len(binary)) + b"BIN\0" + binary)
+
+
+def accessor(view, component, count, kind, **more):
+    return dict({"bufferView": view, "componentType": component, "count": count, "type": kind}, **more)
+
+
+def gltf_rich():
+    """A strip and a triangle list with colours, UVs, sparse values, a skin, instances and materials."""
+    parts = [struct.pack("<12f", *sum(map(list, POINTS), [])), struct.pack("<6H", 0, 1, 2, 0, 2, 3), struct.pack("<4B", 0, 1, 3, 2),
+             struct.pack("<8f", 0, 0, 1, 0, 1, 1, 0, 1), struct.pack("<16B", *range(0, 256, 16)), struct.pack("<B", 2) + bytes(3),
+             struct.pack("<3f", 1, 1, 0.5), struct.pack("<6f", 0, 0, 0, 0, 0, 2), struct.pack("<16f", *([1, 0, 0, 0, 0] * 3 + [1]))]
+    views, binary = [], b""
+    for part in parts:
+        binary += bytes(-len(binary) % 4)
+        views.append({"buffer": 0, "byteOffset": len(binary), "byteLength": len(part)})
+        binary += part
+    accessors = [accessor(0, 5126, 4, "VEC3"), accessor(1, 5123, 6, "SCALAR"), accessor(2, 5121, 4, "SCALAR"),
+                 accessor(3, 5126, 4, "VEC2"), accessor(4, 5121, 4, "VEC4", normalized=True),
+                 accessor(0, 5126, 4, "VEC3", sparse={"count": 1, "indices": {"bufferView": 5, "componentType": 5121},
+                                                      "values": {"bufferView": 6}}),
+                 accessor(7, 5126, 2, "VEC3"), accessor(8, 5126, 1, "MAT4")]
+    attributes = {"POSITION": 0, "TEXCOORD_0": 3, "COLOR_0": 4}
+    meshes = [{"name": "list", "primitives": [{"attributes": attributes, "indices": 1, "material": 0}]},
+              {"primitives": [{"attributes": {"POSITION": 5}, "indices": 2, "mode": 5, "targets": [{"POSITION": 0}]}]}]
+    nodes = [{"name": "a", "mesh": 0, "scale": [-1, 2, 1], "rotation": [0, 0, 0.7071, 0.7071]}, {"mesh": 1, "skin": 0},
+             {"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 6}}}}]
+    return glb(meshes, nodes, views, accessors, binary, skins=[{"joints": [0], "inverseBindMatrices": 7}],
+               materials=[{"name": "glass", "alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 0.5]}}])
+
+
+def gltf_with_data_uri():
+    binary = struct.pack("<12f", *sum(map(list, POINTS), [])) + struct.pack("<6I", 0, 1, 2, 0, 2, 3)
+    scene = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "children": [1]}, {"mesh": 0, "translation": [0, 0, 1]}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+             "accessors": [accessor(0, 5126, 4, "VEC3"), accessor(1, 5125, 6, "SCALAR")],
+             "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+             "buffers": [{"byteLength": len(binary),
+                          "uri": "data:application/octet-stream;base64," + base64.b64encode(binary).decode()}]}
+    return json.dumps(scene, indent=1).encode()
+
+
+def gltf_meshopt():
+    with tempfile.TemporaryDirectory() as folder:
+        source, target = os.path.join(folder, "in.gltf"), os.path.join(folder, "out.glb")
+        with open(source, "wb") as out:
+            out.write(gltf_with_data_uri())
+        subprocess.run(["gltfpack", "-i", source, "-o", target, "-cc"], check=True, stdout=subprocess.DEVNULL)
+        with open(target, "rb") as data:
+            return data.read()
+
+
+def gltf_draco():
+    with tempfile.TemporaryDirectory() as folder:
+        mesh, packed = os.path.join(folder, "mesh.obj"), os.path.join(folder, "mesh.drc")
+        with open(mesh, "w") as out:
+            out.write("".join("v %g %g %g\n" % p for p in POINTS) + "f 1 2 3\nf 1 3 4\n")
+        subprocess.run(["draco_encoder", "-i", mesh, "-o", packed], check=True, stdout=subprocess.DEVNULL)
+        with open(packed, "rb") as data:
+            binary = data.read()
+    primitive = {"attributes": {"POSITION": 0}, "indices": 1,
+                 "extensions": {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}
+    return glb([{"primitives": [primitive]}], [{"mesh": 0}], [{"buffer": 0, "byteLength": len(binary)}],
+               [{"componentType": 5126, "count": 4, "type": "VEC3"}, {"componentType": 5123, "count": 6, "type": "SCALAR"}],
+               binary, extensionsUsed=["KHR_draco_mesh_compression"], extensionsRequired=["KHR_draco_mesh_compression"])
 
 
 def text(words):
@@ -93,6 +170,10 @@ def main():
     write("off/binary.off", off())
     write("stl/binary.stl", stl("binary"))
     write("stl/binary_named_solid.stl", stl("solid in name"))
+    write("glb/rich.glb", gltf_rich())
+    write("glb/data_uri.gltf", gltf_with_data_uri())
+    write("glb/meshopt.glb", gltf_meshopt())
+    write("glb/draco.glb", gltf_draco())
     write("vdb/masked.vdb", vdb(1, [("class", "string", b"level set"),
                                     ("file_voxel_count", "int64", struct.pack("<q", 512))]))
     write("vdb/masked_without_offsets.vdb", vdb(0, []))

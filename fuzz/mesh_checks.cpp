@@ -1,6 +1,7 @@
 #include "mesh_checks.h"
 
 #include "alcove/base/detail/messages.h"
+#include "alcove/mesh/formats/gltf/gltf_document.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/normals.h"
@@ -31,8 +32,14 @@ void check_arrays(const Mesh& mesh) {
     check_size(mesh.vertex_uvs, mesh.vertex_count(), "one texture coordinate per vertex");
     check_size(mesh.vertex_colors, mesh.vertex_count(), "one colour per vertex");
     check_size(mesh.corner_uvs, mesh.corners.size(), "one texture coordinate per corner");
+    check_size(mesh.corner_normals, mesh.corners.size(), "one normal per corner");
     check_size(mesh.face_colors, mesh.face_count(), "one colour per face");
     require(mesh.vertex_uvs.empty() || mesh.corner_uvs.empty(), "only vertices or corners have texture coordinates");
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+        require(
+            mesh.groups[g].first_face < mesh.face_count() &&
+                (g == 0 ? mesh.groups[g].first_face == 0 : mesh.groups[g - 1].first_face < mesh.groups[g].first_face),
+            "groups cover all faces, in order");
     require(std::all_of(mesh.normals.begin(), mesh.normals.end(), is_unit_or_zero), "normals have length 1 or 0");
 }
 
@@ -62,7 +69,14 @@ void check_warnings(const Mesh& mesh) {
 void check_source(const Mesh& mesh) {
     if (const auto* ply = dynamic_cast<const PlyDocument*>(mesh.source.get())) {
         require(ply->find("vertex")->count == mesh.vertex_count(), "all vertices of the header were read");
-        require(ply->find("face")->count == mesh.face_count(), "all faces of the header were read");
+        const PlyElement* faces = ply->find("face");
+        require((faces ? faces->count : 0) == mesh.face_count(), "all faces of the header were read");
+    }
+    if (const auto* gltf = dynamic_cast<const GltfDocument*>(mesh.source.get())) {
+        require(gltf->vertex_count() == mesh.vertex_count(), "all vertices belong to a primitive");
+        require(gltf->group_primitives.size() == mesh.groups.size(), "every group has a primitive");
+        for (std::size_t set = 0; set < gltf->uv_sets(); ++set)
+            require(gltf->uv_set(set).size() == mesh.vertex_count(), "one texture coordinate per vertex");
     }
     if (const auto* obj = dynamic_cast<const ObjDocument*>(mesh.source.get()))
         require(obj->vertex_lines.size() == mesh.vertex_count(), "every vertex has a line");

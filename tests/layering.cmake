@@ -31,7 +31,7 @@ set(apps_may_include base mesh grid vdb field occlusion bake render scene measur
 set(grid_also_in "^lib/alcove/field/(level_stack|detail/bricks|detail/sample_bricks)\\.(h|cpp)$")
 
 # Third-party libraries: patterns of their headers and of the files that may include them.
-set(libraries openvdb embree openexr png openmesh tbb highway fast_float eigen cli11 json toml)
+set(libraries openvdb embree openexr png openmesh tbb highway fast_float eigen cli11 json toml meshoptimizer draco nanoflann)
 set(openvdb_headers "^(openvdb|nanovdb)/")
 set(openvdb_only_in "^lib/alcove/((grid|vdb|field)/[a-z0-9_/]+\\.cpp|grid/detail/vdb_grid\\.h)$")
 set(embree_headers "^embree[0-9]*/")
@@ -49,13 +49,19 @@ set(highway_only_in "^lib/alcove/(field/detail/sample_bricks|nearest/nearest|nea
 set(fast_float_headers "^fast_float/")
 set(fast_float_only_in "^lib/alcove/mesh/")
 set(eigen_headers "^(Eigen|eigen3)/")
-set(eigen_only_in "^lib/alcove/occlusion/detail/(last_layer_fit|ridge_regression)\\.cpp$")
+set(eigen_only_in "^lib/alcove/occlusion/detail/(last_layer_fit|ridge_regression)\\.cpp$|^lib/alcove/grid/detail/point_cloud\\.cpp$")
+set(nanoflann_headers "^nanoflann\\.hpp$")
+set(nanoflann_only_in "^lib/alcove/grid/detail/point_cloud\\.cpp$")
 set(cli11_headers "^CLI/")
 set(cli11_only_in "^apps/")
 set(toml_headers "^toml\\+\\+/")
 set(toml_only_in "^lib/alcove/scene/")
 set(json_headers "^nlohmann/")
-set(json_only_in "^apps/")
+set(json_only_in "^(apps/|lib/alcove/mesh/formats/gltf/)")
+set(meshoptimizer_headers "^meshoptimizer\\.h$")
+set(meshoptimizer_only_in "^lib/alcove/mesh/formats/gltf/gltf_compression\\.cpp$")
+set(draco_headers "^draco/")
+set(draco_only_in "^lib/alcove/mesh/formats/gltf/gltf_compression\\.cpp$")
 
 # Each of these takes a quarter of a minute to compile, because of OpenVDB.
 set(max_openvdb_sources 9)

@@ -2,7 +2,7 @@
 # Fuzzes the readers and voxelization: builds the targets of fuzz/ in build-fuzz, with clang, libFuzzer and the address
 # and undefined-behaviour sanitizers, and runs them one after another.
 #
-#     tools/fuzz.sh [SECONDS=60] [ply|obj|off|stl|toml|vdb|voxelize...]
+#     tools/fuzz.sh [SECONDS=60] [ply|obj|off|stl|glb|toml|vdb|voxelize...]
 #
 # An input that crashes, violates an invariant, takes more than two seconds or allocates more than 512 MB ends the run
 # of its target and is saved in build-fuzz/failures. After the fix, move it to fuzz/regressions. Other new inputs are
@@ -14,7 +14,7 @@ if [[ ${1:-} =~ ^[0-9]+$ ]]; then
     seconds=$1
     shift
 fi
-[ $# -gt 0 ] || set -- ply obj off stl toml vdb voxelize
+[ $# -gt 0 ] || set -- ply obj off stl glb toml vdb voxelize
 
 tools/setup.sh clang libclang-rt-14-dev
 cmake --preset fuzz -DCMAKE_CXX_COMPILER_LAUNCHER=ccache

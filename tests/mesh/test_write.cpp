@@ -60,7 +60,7 @@ TEST_F(Write, OtherExtensionsAreRefusedByName) {
     for (const char* name : {"out.stl", "out.off", "out", "out.ply.gz"}) {
         const std::string message = message_of<InputError>(triangle(), path(name));
         EXPECT_NE(message.find(name), std::string::npos) << message;
-        EXPECT_NE(message.find(".ply or .obj"), std::string::npos) << message;
+        EXPECT_NE(message.find(".ply, .obj, .glb or .gltf"), std::string::npos) << message;
         EXPECT_FALSE(std::filesystem::exists(path(name)));
     }
     EXPECT_NO_THROW(write_mesh(triangle(), path("OUT.PLY")));

@@ -1,17 +1,10 @@
+#include "alcove/mesh/detail/srgb.h"
 #include "alcove/mesh/files.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace alcove {
-namespace {
-
-double encode_srgb(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-}
-
 std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding) {
     std::vector<Color> colors;
     colors.reserve(values.size());

@@ -1,4 +1,4 @@
-/// Reads and writes mesh files without loss: PLY, OBJ, OFF and STL into a Mesh, and a Mesh as PLY or OBJ.
+/// Reads and writes mesh files without loss: PLY, OBJ, OFF, STL and glTF into a Mesh, and a Mesh as PLY, OBJ or glTF.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -30,6 +30,11 @@ namespace alcove {
 ///  - STL: ascii and binary. Corners with equal coordinates are joined (-0 equals 0), in the order of their first
 ///    appearance. Facet normals are ignored, as the corners determine them. The 15-bit colours of VisCAM and Magics
 ///    become `face_colors`. A binary count of 0 or -1 means as many facets as the file has room for.
+///  - glTF 2.0: .glb, or .gltf with its buffers; the meshes of the default scene in its coordinates, instance by
+///    instance, rounded to floats if that moves no vertex by more than 1e-6 of the diagonal. Skinned meshes are in their
+///    bind pose, morph targets are ignored. KHR_mesh_quantization, EXT_meshopt_compression, KHR_draco_mesh_compression
+///    and EXT_mesh_gpu_instancing are read. `groups` have the names of nodes, meshes and materials. TEXCOORD_0 becomes
+///    `vertex_uvs`, COLOR_0 `vertex_colors`, and the base colours of materials become `face_colors`.
 ///
 /// Thread-safe. Cost: linear, about 0.2 µs per triangle for text and 0.1 µs for binary PLY; the file and the mesh
 /// are in memory at the same time.
@@ -41,11 +46,6 @@ namespace alcove {
 /// \throw LimitError if it is larger than 4 GB or a quarter of the memory, or has 2^32 vertices or corners.
 /// \throw MemoryError if the system has too little memory for it.
 Mesh read_mesh(const std::filesystem::path& file);
-
-enum class ColorEncoding {
-    srgb, ///< bytes that decode to the value as sRGB (IEC 61966-2-1, 1999), which viewers and Blender assume
-    raw,  ///< 255 × value
-};
 
 /// One opaque grey per value in [0, 1], rounded to the nearest byte; other values are clamped.
 std::vector<Color> grey_colors(std::span<const float> values, ColorEncoding encoding = ColorEncoding::srgb);
@@ -68,6 +68,12 @@ bool can_write_mesh(const std::filesystem::path& file);
 /// rewritten to point to the same files, if these exist. Nothing else changes, and no comments are added. For other
 /// inputs, numbers are the shortest decimals that read back as the same float if the value is one, otherwise as the
 /// same double.
+///
+/// glTF (.glb, .gltf): writes everything in a glTF input, with the values of its vertices added: attributes as float
+/// _AO, _CONVEXITY, _BENT_NORMAL (in the space of the node), ..., and `added_colors` as COLOR_0. New data follows the
+/// old in the buffers; in a .gltf, it is embedded. Instances of a mesh share values, or get copies of it, see
+/// Mesh::instance_error. `added_comments` become `extras` of the asset. For other inputs, writes a node with one
+/// primitive per material.
 ///
 /// The contents of the input are written even if the fields of the Mesh have changed: reset `Mesh::source` after
 /// moving, adding or removing vertices or faces.

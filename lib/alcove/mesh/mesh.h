@@ -21,25 +21,44 @@ struct Attribute {
     std::vector<float> values;
 };
 
+enum class ColorEncoding {
+    srgb, ///< bytes that decode to the value as sRGB (IEC 61966-2-1, 1999), which viewers and Blender assume
+    raw,  ///< 255 × value
+};
+
+/// Consecutive faces with the same names in the file: those of the glTF node, its ancestors, its mesh and its material;
+/// those in the `o`, `g` and `usemtl` lines of an OBJ.
+struct FaceGroup {
+    std::vector<std::string> names;
+    std::uint32_t first_face = 0; ///< the last one is before the next group
+    bool see_through = false;     ///< its glTF material is masked or blended
+};
+
 /// Vertices and faces keep the count and order of the file, even if they are invalid: non-finite vertices, faces of
 /// fewer than three corners and coincident vertices are kept. Functions that need valid geometry (triangulate,
 /// area_weighted_normals, voxelize) leave out the rest and count it.
 struct Mesh {
-    std::vector<Vec3d> positions;                 ///< scene units
-    std::vector<Vec3> normals;                    ///< empty, or one per vertex: those of the file, unit length or zero
-    std::vector<Vec3> corner_normals;             ///< empty, or one per corner, if vertices have several in the file
-    std::vector<std::uint32_t> face_begin{0};     ///< faces + 1 offsets into `corners`
-    std::vector<std::uint32_t> corners;           ///< vertex indices of one face after another; all in range
-    std::vector<Vec2> vertex_uvs;                 ///< empty, or one per vertex
-    std::vector<Vec2> corner_uvs;                 ///< empty, or one per corner; never together with vertex_uvs
-    std::vector<Color> vertex_colors;             ///< empty, or one per vertex: those of the file
-    std::vector<Color> face_colors;               ///< empty, or one per face: those of the file
-    std::vector<Attribute> attributes;            ///< added values, written in addition to those of the file
-    std::vector<std::string> warnings;            ///< what reading had to leave out, as messages with counts
-    std::vector<Color> added_colors;              ///< empty, or one per vertex: replace those of the file
+    std::vector<Vec3d> positions;             ///< scene units
+    std::vector<Vec3> normals;                ///< empty, or one per vertex: those of the file, unit length or zero
+    std::vector<Vec3> corner_normals;         ///< empty, or one per corner, if vertices have several in the file
+    std::vector<std::uint32_t> face_begin{0}; ///< faces + 1 offsets into `corners`
+    std::vector<std::uint32_t> corners;       ///< vertex indices of one face after another; all in range
+    std::vector<Vec2> vertex_uvs;             ///< empty, or one per vertex
+    std::vector<Vec2> corner_uvs;             ///< empty, or one per corner; never together with vertex_uvs
+    std::vector<Color> vertex_colors;         ///< empty, or one per vertex: those of the file
+    std::vector<Color> face_colors;           ///< empty, or one per face: those of the file
+    std::vector<FaceGroup> groups;            ///< empty, or groups of all faces in their order
+    std::vector<Attribute> attributes;        ///< added values, written in addition to those of the file
+    std::vector<std::string> warnings;        ///< what reading had to leave out, as messages with counts
+    std::vector<Color> added_colors;          ///< empty, or one per vertex: replace those of the file
+    ColorEncoding added_encoding = ColorEncoding::srgb; ///< of added_colors
+    /// Empty, or 1 for each vertex that has added values. The nodes of a glTF scene without any stay as they are.
+    std::vector<std::uint8_t> baked_vertices;
+    /// Instances of one mesh in a glTF scene share added values whose RMSE does not exceed this.
+    double instance_error = 0.0;
     std::vector<std::string> added_comments;      ///< provenance lines to write; the first word is the program
     std::string name;                             ///< the file that it was read from, for messages; may be empty
-    std::string_view format;                      ///< "PLY", "OBJ", "OFF", "STL"; empty if not from a file
+    std::string_view format;                      ///< "PLY", "OBJ", "OFF", "STL", "glTF"; empty if not from a file
     std::shared_ptr<const SourceDocument> source; ///< null for a mesh that was not read from a file
 
     std::size_t vertex_count() const { return positions.size(); }

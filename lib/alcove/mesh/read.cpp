@@ -18,7 +18,8 @@ struct Format {
     std::string_view name;
     Mesh (*read)(const FileBytes&);
 };
-constexpr Format ply{"PLY", read_ply}, obj{"OBJ", read_obj}, off{"OFF", read_off}, stl{"STL", read_stl};
+constexpr Format ply{"PLY", read_ply}, obj{"OBJ", read_obj}, off{"OFF", read_off}, stl{"STL", read_stl},
+    gltf{"glTF", read_gltf};
 
 const Format& format_of(const FileBytes& file) {
     if (begins_as_ply(file))
@@ -27,6 +28,8 @@ const Format& format_of(const FileBytes& file) {
         return off;
     if (begins_as_stl(file))
         return stl;
+    if (begins_as_gltf(file))
+        return gltf;
     refuse_wide_text(file);
     std::string extension = file.path().extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -37,18 +40,21 @@ const Format& format_of(const FileBytes& file) {
         return off;
     if (extension == ".stl")
         return stl;
+    if (extension == ".glb" || extension == ".gltf")
+        return gltf;
     if (extension == ".toml")
         file.fail("is a scene: render it");
     if (extension == ".vdb")
         file.fail("is a grid, not a mesh");
     if (extension == ".obj" || begins_as_obj(file))
         return obj;
-    file.fail("is not a mesh in a known format; PLY, OBJ, OFF and STL can be read");
+    file.fail("is not a mesh in a known format; PLY, OBJ, OFF, STL and glTF can be read");
 }
 
 std::string points_without_faces(std::size_t count) {
-    return count == 0 ? "contains no vertices and no faces; export it again"
-                      : "contains " + counted(count, "point", "points") + " but no faces; reconstruct a surface first";
+    return count == 0
+               ? "contains no vertices and no faces; export it again"
+               : "contains " + counted(count, "point", "points") + " but no faces; points can be read from a PLY file";
 }
 
 void warn_of_invalid_geometry(Mesh& mesh) {
@@ -74,7 +80,7 @@ Mesh read_bytes(const FileBytes& file) {
     mesh.name = file.path().string();
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max())
         throw LimitError(file.path().string() + ": more than 2^32 vertices; split the mesh");
-    if (mesh.face_count() == 0)
+    if (mesh.face_count() == 0 && mesh.format != ply.name)
         file.fail(mesh.format == stl.name ? "contains no facets; export it again"
                                           : points_without_faces(mesh.vertex_count()));
     const double diagonal = mesh.box().diagonal();

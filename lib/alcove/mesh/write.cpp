@@ -18,7 +18,11 @@ Writer writer_for(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".ply" ? write_ply : extension == ".obj" ? write_obj : nullptr;
+    if (extension == ".ply")
+        return write_ply;
+    if (extension == ".obj")
+        return write_obj;
+    return extension == ".glb" || extension == ".gltf" ? write_gltf : nullptr;
 }
 
 }
@@ -35,7 +39,7 @@ std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::pat
         throw std::invalid_argument("the number of colours to write differs from the number of vertices");
     if (const Writer write = writer_for(file))
         return write(mesh, file);
-    throw InputError(file.string() + ": meshes are written as .ply or .obj; use one of these extensions");
+    throw InputError(file.string() + ": meshes are written as .ply, .obj, .glb or .gltf; use one of these extensions");
 }
 
 }

@@ -1,11 +1,16 @@
 /// The contents of a file that a Mesh does not represent, kept to be written back in the same format.
 #pragma once
 
+#include "alcove/base/types.h"
+
+#include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace alcove {
 
-/// Base of PlyDocument and ObjDocument. Valid only for the vertices and faces that were read with it: code that moves,
+/// Base of PlyDocument, ObjDocument and GltfDocument. Valid only for the vertices and faces that were read with it: code that moves,
 /// reorders or removes them must reset `Mesh::source`.
 class SourceDocument {
   public:
@@ -14,6 +19,12 @@ class SourceDocument {
     virtual bool has_vertex_property(std::string_view) const { return false; }
     /// The first comment of the file that begins with that text; empty if there is none.
     virtual std::string_view comment(std::string_view) const { return {}; }
+
+    /// What no Mesh represents and other formats do not store, one text each: "3 comment lines".
+    virtual std::vector<std::string> contents() const = 0;
+    /// Sets of texture coordinates beyond the one in the Mesh: their total number, and one of them by vertex.
+    virtual std::size_t uv_sets() const { return 1; }
+    virtual std::vector<Vec2> uv_set(std::size_t) const { return {}; }
 
   protected:
     SourceDocument() = default;

@@ -5,7 +5,6 @@
 #include "alcove/mesh/detail/adaptive_cuts.h"
 #include "alcove/mesh/detail/bisection.h"
 #include "alcove/mesh/detail/interpolated_document.h"
-#include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/normals.h"
 
 #include <fmt/format.h>
@@ -104,7 +103,10 @@ void replace_faces(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
     };
     auto piece = bisection.pieces().begin();
     const auto end = bisection.pieces().end();
+    auto group = mesh.groups.begin();
     for (std::uint32_t f = 0; f < old.face_count(); ++f) {
+        for (; group != mesh.groups.end() && group->first_face == f; ++group)
+            group->first_face = static_cast<std::uint32_t>(mesh.face_count());
         if (!bisection.is_cut(f)) {
             add_face(f, old.face(f));
             const auto copy_corners = [&](const auto& from, auto& to) {
@@ -138,12 +140,9 @@ void replace_source(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
         else
             mesh.warnings.push_back("lost by tessellation: other properties of the file, because its vertices and "
                                     "faces no longer match the mesh");
-    } else if (const auto* obj = dynamic_cast<const ObjDocument*>(old.source.get())) {
-        for (const std::string& lines : obj->other_line_counts())
-            mesh.warnings.push_back("lost by tessellation: " + lines);
-        if (obj->weights > 0)
-            mesh.warnings.push_back("lost by tessellation: the weights of " +
-                                    counted(obj->weights, "vertex", "vertices"));
+    } else if (old.source) {
+        for (const std::string& content : old.source->contents())
+            mesh.warnings.push_back("lost by tessellation: " + content);
     }
 }
 

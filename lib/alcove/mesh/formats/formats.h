@@ -17,15 +17,18 @@ Mesh read_ply(const FileBytes& file);
 Mesh read_obj(const FileBytes& file);
 Mesh read_off(const FileBytes& file);
 Mesh read_stl(const FileBytes& file);
+Mesh read_gltf(const FileBytes& file);
 
 bool begins_as_ply(const FileBytes& file);
 bool begins_as_obj(const FileBytes& file);
 bool begins_as_off(const FileBytes& file);
 bool begins_as_stl(const FileBytes& file);
+bool begins_as_gltf(const FileBytes& file);
 
 // Each returns the messages of write_mesh() and throws IoError.
 std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file);
 std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file);
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file);
 
 /// \throw InputError for a file of `count` points and no faces, with the line at `place` that says so.
 [[noreturn]] void fail_without_faces(const FileBytes& file, const char* place, std::size_t count);

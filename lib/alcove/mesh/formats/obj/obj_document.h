@@ -57,6 +57,12 @@ class ObjDocument : public SourceDocument {
         }
         return counts;
     }
+    std::vector<std::string> contents() const override {
+        std::vector<std::string> all = other_line_counts();
+        if (weights > 0)
+            all.push_back("the weights of " + counted(weights, "vertex", "vertices"));
+        return all;
+    }
 };
 
 }

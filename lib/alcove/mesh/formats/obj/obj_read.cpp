@@ -62,6 +62,10 @@ class ObjReader {
     }
 
     void read_other(std::string_view keyword) {
+        if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
+            (keyword == "o" ? object_ : keyword == "g" ? group_ : material_) = rest_of_line();
+            starts_group_ = true;
+        }
         if (keyword == "usemtl")
             document_->material_uses.push_back({mesh_.face_count(), rest_of_line()});
         else if (keyword == "mtllib")
@@ -130,7 +134,21 @@ class ObjReader {
         }
     }
 
+    /// Starts a group of faces at the first face after a line that names one.
+    void add_group() {
+        starts_group_ = false;
+        if (mesh_.groups.empty() && mesh_.face_count() > 0)
+            mesh_.groups.emplace_back();
+        FaceGroup& group = mesh_.groups.emplace_back();
+        group.first_face = static_cast<std::uint32_t>(mesh_.face_count());
+        for (const std::string& name : {object_, group_, material_})
+            if (!name.empty())
+                group.names.push_back(name);
+    }
+
     void read_face() {
+        if (starts_group_)
+            add_group();
         while (!text_.at_line_end()) {
             const char* const place = text_.at();
             const char* at = place;
@@ -271,6 +289,8 @@ class ObjReader {
     std::shared_ptr<ObjDocument> document_;
     Mesh mesh_;
     ObjValues values_;
+    std::string object_, group_, material_; ///< names of the next faces
+    bool starts_group_ = false;
     std::int64_t largest_vertex_ = 0; ///< checked at the end, as faces may precede their vertices
     const char* largest_vertex_at_ = nullptr;
     std::array<std::size_t, obj_text_keywords.size()> text_lines_{};

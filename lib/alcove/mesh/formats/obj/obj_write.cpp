@@ -3,7 +3,6 @@
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/formats/obj/obj_file_names.h"
-#include "alcove/mesh/formats/ply/ply_document.h"
 #include "alcove/mesh/formats/text_scanner.h"
 
 #include <fmt/format.h>
@@ -161,32 +160,6 @@ Buffer composed(const Mesh& mesh) {
     return to;
 }
 
-/// Lists the properties and elements of a PLY input that an OBJ cannot store.
-void list_lost(const PlyDocument& document, std::vector<std::string>& lost) {
-    constexpr std::array<std::string_view, 18> of_vertices{"x",  "y",  "z",   "nx",    "ny",        "nz",
-                                                           "s",  "t",  "u",   "v",     "texture_u", "texture_v",
-                                                           "s0", "t0", "red", "green", "blue",      "alpha"};
-    // The caller reports the colours of faces, for all input formats.
-    constexpr std::array<std::string_view, 7> of_faces{"vertex_indices", "vertex_index", "texcoord", "red",
-                                                       "green",          "blue",         "alpha"};
-    for (const PlyElement& element : document.elements) {
-        std::span<const std::string_view> stored;
-        if (element.name == "vertex")
-            stored = of_vertices;
-        else if (element.name == "face")
-            stored = of_faces;
-        else
-            lost.push_back("not stored in OBJ: " + grouped(element.count) + " rows of element " +
-                           in_quotes(element.name));
-        for (const PlyProperty& property : element.properties)
-            if (!stored.empty() && std::find(stored.begin(), stored.end(), property.name) == stored.end())
-                lost.push_back("not stored in OBJ: property " + in_quotes(property.name) + " of element " +
-                               in_quotes(element.name));
-    }
-    if (!document.comments.empty())
-        lost.push_back("not stored in OBJ: " + counted(document.comments.size(), "comment line", "comment lines"));
-}
-
 }
 
 std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file) {
@@ -205,8 +178,9 @@ std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path
         for (std::string& message : write_text(output, *text, mesh, file))
             lost.push_back(std::move(message));
     } else {
-        if (const auto* document = dynamic_cast<const PlyDocument*>(mesh.source.get()))
-            list_lost(*document, lost);
+        if (mesh.source != nullptr)
+            for (const std::string& content : mesh.source->contents())
+                lost.push_back("not stored in OBJ: " + content);
         if (!mesh.face_colors.empty())
             lost.push_back("not stored in OBJ: the colours of the faces");
         const Buffer bytes = composed(mesh);

@@ -1,5 +1,7 @@
 #include "alcove/mesh/formats/ply/ply_document.h"
 
+#include "alcove/base/detail/messages.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -130,6 +132,31 @@ std::string_view PlyDocument::comment(std::string_view beginning) const {
 bool PlyDocument::has_vertex_property(std::string_view name) const {
     const PlyElement* vertices = find("vertex");
     return vertices != nullptr && vertices->find(name) != nullptr;
+}
+
+std::vector<std::string> PlyDocument::contents() const {
+    constexpr std::array<std::string_view, 18> of_vertices{"x",  "y",  "z",   "nx",    "ny",        "nz",
+                                                           "s",  "t",  "u",   "v",     "texture_u", "texture_v",
+                                                           "s0", "t0", "red", "green", "blue",      "alpha"};
+    // Writers report the colours of faces, for all input formats.
+    constexpr std::array<std::string_view, 7> of_faces{"vertex_indices", "vertex_index", "texcoord", "red",
+                                                       "green",          "blue",         "alpha"};
+    std::vector<std::string> all;
+    for (const PlyElement& element : elements) {
+        std::span<const std::string_view> stored;
+        if (element.name == "vertex")
+            stored = of_vertices;
+        else if (element.name == "face")
+            stored = of_faces;
+        else
+            all.push_back(grouped(element.count) + " rows of element " + in_quotes(element.name));
+        for (const PlyProperty& property : element.properties)
+            if (!stored.empty() && std::find(stored.begin(), stored.end(), property.name) == stored.end())
+                all.push_back("property " + in_quotes(property.name) + " of element " + in_quotes(element.name));
+    }
+    if (!comments.empty())
+        all.push_back(counted(comments.size(), "comment line", "comment lines"));
+    return all;
 }
 
 const PlyProperty* corner_list(const PlyElement& element) {

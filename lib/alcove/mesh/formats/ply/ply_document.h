@@ -103,6 +103,7 @@ class PlyDocument : public SourceDocument {
     const PlyElement* find(std::string_view element) const;
     bool has_vertex_property(std::string_view name) const override;
     std::string_view comment(std::string_view beginning) const override;
+    std::vector<std::string> contents() const override;
 };
 
 /// Calls f(row, bytes of the property) for all rows.

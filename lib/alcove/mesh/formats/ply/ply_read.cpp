@@ -220,18 +220,16 @@ Mesh read_ply(const FileBytes& file) {
     const std::size_t left = parse_ply_rows(file, header);
     warn_of_rest(file, header.format, left, mesh);
     const PlyElement& vertices = *header.document.find("vertex");
-    if (faces == nullptr && !in_strips)
+    const bool is_cloud = !in_strips && (faces == nullptr || faces->count == 0);
+    if (is_cloud && vertices.count == 0)
         fail_without_faces(file, header.body - 1, vertices.count);
-    if (!in_strips && faces->count == 0)
-        fail_without_faces(file, header.element_line[static_cast<std::size_t>(faces - header.document.elements.data())],
-                           vertices.count);
     read_components(vertices, *find_all<3>(vertices, {"x", "y", "z"}), mesh.positions);
     read_normals(vertices, mesh);
     read_vertex_uvs(vertices, mesh);
     read_colors(vertices, mesh.vertex_colors);
     if (in_strips) {
         read_strips(file, header, mesh);
-    } else {
+    } else if (!is_cloud) {
         read_faces(file, header, *faces, mesh);
         read_corner_uvs(*faces, mesh);
         read_colors(*faces, mesh.face_colors);

@@ -1,7 +1,6 @@
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/formats.h"
-#include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/formats/ply/ply_document.h"
 
 #include <fmt/format.h>
@@ -173,8 +172,8 @@ void list_replaced(const PlyDocument& document, const Mesh& mesh, std::vector<st
 bool belongs_to(const PlyDocument& document, const Mesh& mesh) {
     const PlyElement* vertices = document.find("vertex");
     const PlyElement* faces = document.find("face");
-    return vertices != nullptr && vertices->count == mesh.vertex_count() && faces != nullptr &&
-           faces->count == mesh.face_count();
+    return vertices != nullptr && vertices->count == mesh.vertex_count() &&
+           (faces != nullptr ? faces->count : 0) == mesh.face_count();
 }
 
 }
@@ -191,12 +190,9 @@ std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path
         made = make_ply_document(mesh);
         document = &made;
     }
-    if (const auto* text = dynamic_cast<const ObjDocument*>(mesh.source.get())) {
-        for (const std::string& lines : text->other_line_counts())
-            lost.push_back("not stored in PLY: " + lines);
-        if (text->weights > 0)
-            lost.push_back("not stored in PLY: the weights of " + counted(text->weights, "vertex", "vertices"));
-    }
+    if (mesh.source != nullptr && dynamic_cast<const PlyDocument*>(mesh.source.get()) == nullptr)
+        for (const std::string& content : mesh.source->contents())
+            lost.push_back("not stored in PLY: " + content);
 
     list_replaced(*document, mesh, lost);
     const std::vector<Column> columns = added_columns(mesh);

@@ -1,0 +1,50 @@
+/// The values of glTF accessors: of any component type, interleaved, normalized and sparse.
+#pragma once
+
+#include "alcove/mesh/formats/gltf/gltf_file.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace alcove {
+
+/// An element of `accessors`, checked against its buffer view.
+class GltfAccessor {
+  public:
+    /// \throw InputError if it is damaged or does not fit its buffer view, or if its number of components is not from
+    /// `least` to `most`.
+    GltfAccessor(GltfFile& file, const GltfValue& accessor, int least_components, int most_components);
+
+    std::size_t count() const { return count_; }
+    int components() const { return components_; }
+    /// All components as floats; normalized integers as numbers in [0, 1] or [-1, 1].
+    std::vector<float> floats() const;
+    /// Of an accessor of one component. \throw InputError for components that are not unsigned integers.
+    std::vector<std::uint32_t> indices() const;
+
+  private:
+    /// Elements in memory, `stride` bytes apart.
+    struct Elements {
+        const char* begin = nullptr; ///< null: zeros
+        std::size_t stride = 0;
+    };
+    Elements elements(GltfFile& file, const GltfValue& source, std::size_t count, std::size_t element_size,
+                      bool may_be_interleaved) const;
+    template <class T>
+    std::vector<T> values() const;
+
+    GltfValue value_;
+    std::size_t count_;
+    int components_ = 1;
+    std::size_t component_type_;
+    bool normalized_ = false;
+    Elements dense_;
+    std::vector<std::uint32_t> sparse_at_;
+    Elements sparse_;
+};
+
+/// The count of an accessor, at most what its buffers can hold. \throw InputError if it is not a number, LimitError if
+/// an accessor without data is larger than the memory limit.
+std::size_t count_of_accessor(const GltfValue& accessor);
+
+}

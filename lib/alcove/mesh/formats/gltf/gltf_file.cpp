@@ -1,0 +1,145 @@
+// Format: glTF 2.0 (Khronos 2021).
+#include "alcove/mesh/formats/gltf/gltf_file.h"
+
+#include "alcove/base/detail/messages.h"
+#include "alcove/base/types.h"
+#include "alcove/mesh/formats/byte_reader.h"
+#include "alcove/mesh/formats/gltf/gltf_compression.h"
+#include "alcove/mesh/formats/gltf/gltf_uri.h"
+#include "alcove/mesh/formats/text_encoding.h"
+
+#include <fmt/format.h>
+
+namespace alcove {
+namespace {
+
+constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk_type = 0x004e4942;
+constexpr int max_depth = 200; // writing the JSON is recursive
+
+}
+
+GltfFile::GltfFile(const FileBytes& bytes) : bytes_(bytes) {
+    if (bytes_.view().starts_with("glTF"))
+        parse_chunks();
+    else
+        json_text_ = without_byte_order_mark(bytes_.view());
+    parse_json(json_text_);
+    if (!json_.is_object())
+        bytes_.fail("is not glTF: its JSON is not an object");
+    const std::string version = root()["asset"].text_or("version", "");
+    if (!version.starts_with("2."))
+        root()["asset"].fail(fmt::format("version {} cannot be read; convert it to glTF 2.0", in_quotes(version)));
+    if (has_binary_chunk_ && root().has("buffers") && root()["buffers"].size() > 0) {
+        const std::size_t length = root()["buffers"][0].count_or("byteLength", 0);
+        constexpr std::size_t padding = 3;
+        if (length <= binary_chunk_.size() && binary_chunk_.size() - length <= padding)
+            binary_chunk_ = binary_chunk_.substr(0, length);
+    }
+}
+
+void GltfFile::parse_chunks() {
+    is_binary_ = true;
+    constexpr std::size_t header = 12, chunk_header = 8;
+    ByteReader reader(bytes_, bytes_.begin() + 4, std::endian::little);
+    const auto version = reader.read<std::uint32_t>("the version");
+    if (version != 2)
+        reader.fail(fmt::format("version {} of binary glTF cannot be read; convert it to version 2", version));
+    const auto length = reader.read<std::uint32_t>("the length");
+    if (length > bytes_.size() || length < header)
+        reader.fail(fmt::format("the header gives a length of {} bytes, but the file has {}; copy or export it again",
+                                grouped(length), grouped(bytes_.size())));
+    const char* const end = bytes_.begin() + length;
+    const char* at = bytes_.begin() + header;
+    for (int number = 0; at < end; ++number) {
+        ByteReader chunk(bytes_, at, std::endian::little);
+        const auto size = chunk.read<std::uint32_t>("the length of a chunk");
+        const auto type = chunk.read<std::uint32_t>("the type of a chunk");
+        const auto left = static_cast<std::size_t>(end - at);
+        if (left < chunk_header || size > left - chunk_header)
+            chunk.fail(fmt::format("a chunk of {} bytes does not fit the rest of the file; copy or export it again",
+                                   grouped(size)));
+        const std::string_view data(chunk.at(), size);
+        if (number == 0) {
+            if (type != json_chunk)
+                chunk.fail("the first chunk is not JSON; export the file again");
+            json_text_ = data;
+        } else if (number == 1 && type == binary_chunk_type) {
+            has_binary_chunk_ = true;
+            binary_chunk_ = data;
+        } else {
+            other_chunks_ = {at, left};
+            break;
+        }
+        at += chunk_header + size;
+    }
+}
+
+void GltfFile::parse_json(std::string_view text) {
+    const auto limit_depth = [&](int depth, Json::parse_event_t, Json&) {
+        if (depth > max_depth)
+            bytes_.fail(fmt::format("its JSON is nested more than {} levels deep; export it again", max_depth));
+        return true;
+    };
+    try {
+        json_ = Json::parse(text.begin(), text.end(), limit_depth);
+    } catch (const Json::parse_error& error) {
+        const std::size_t at = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
+        bytes_.fail_at_line(text.data() + at, "the JSON is damaged here; export the file again");
+    } catch (const Json::exception& error) {
+        bytes_.fail(fmt::format("the JSON cannot be read: {}; export the file again", error.what()));
+    }
+}
+
+bool GltfFile::is_indented() const {
+    const std::size_t brace = json_text_.find('{');
+    return brace != std::string_view::npos && brace + 1 < json_text_.size() &&
+           (json_text_[brace + 1] == '\n' || json_text_[brace + 1] == '\r');
+}
+
+std::string_view GltfFile::buffer(const GltfValue& buffer) {
+    const std::size_t length = buffer["byteLength"].count();
+    std::string_view bytes;
+    if (!buffer.has("uri")) {
+        if (!has_binary_chunk_ || buffer.place() != "buffers[0]")
+            buffer.fail("has no data; export the file again");
+        bytes = binary_chunk_;
+    } else {
+        auto known = buffers_.find(buffer.place());
+        if (known == buffers_.end()) {
+            const std::string& uri = buffer["uri"].text();
+            if (is_data_uri(uri)) {
+                const std::optional<std::string> data = data_of_uri(uri);
+                if (!data)
+                    buffer["uri"].fail("is not a data URI in base64; export the file again");
+                known = buffers_.try_emplace(buffer.place(), bytes_.path(), *data).first;
+            } else {
+                const std::optional<std::filesystem::path> path = path_of_uri(uri);
+                if (!path)
+                    buffer["uri"].fail(fmt::format("{} is not a file in the folder of this one, and no other file is "
+                                                   "read; put it beside this one",
+                                                   in_quotes(uri)));
+                const std::filesystem::path file = bytes_.path().parent_path() / *path;
+                if (std::error_code error; !std::filesystem::is_regular_file(file, error))
+                    buffer["uri"].fail(fmt::format("the file {} is missing; put it beside this one", in_quotes(uri)));
+                known = buffers_.try_emplace(buffer.place(), file).first;
+            }
+        }
+        bytes = known->second.view();
+    }
+    if (bytes.size() < length)
+        buffer.fail(fmt::format("has {} bytes, fewer than its byteLength of {}; copy or export the file again",
+                                grouped(bytes.size()), grouped(length)));
+    return bytes.substr(0, length);
+}
+
+std::string_view GltfFile::view(const GltfValue& view) {
+    if (const std::optional<GltfValue> compression = meshopt_of(view)) {
+        auto known = decompressed_.find(view.place());
+        if (known == decompressed_.end())
+            known = decompressed_.try_emplace(view.place(), decompress(*this, *compression)).first;
+        return known->second;
+    }
+    return range_in(buffer(view["buffer"].target(root(), "buffers")), view);
+}
+
+}

@@ -1,0 +1,48 @@
+/// A glTF file in memory: its JSON, its buffers and the views of them.
+#pragma once
+
+#include "alcove/mesh/formats/file_bytes.h"
+#include "alcove/mesh/formats/gltf/gltf_value.h"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace alcove {
+
+class GltfFile {
+  public:
+    /// Parses a .glb, or a .gltf. \throw InputError if it is damaged or nested more than 200 levels deep.
+    explicit GltfFile(const FileBytes& bytes);
+
+    GltfValue root() const { return {bytes_, json_, ""}; }
+    const FileBytes& bytes() const { return bytes_; }
+    bool is_binary() const { return is_binary_; }
+    /// Of the binary chunk, without padding if buffers[0] says so; empty if there is none.
+    std::string_view binary_chunk() const { return binary_chunk_; }
+    bool has_binary_chunk() const { return has_binary_chunk_; }
+    /// Chunks after the binary one, with their headers.
+    std::string_view other_chunks() const { return other_chunks_; }
+    bool is_indented() const; ///< whether the JSON has line breaks
+
+    /// The bytes of an element of `buffers`, read at the first use. \throw InputError if they are missing, are too
+    /// few or lie outside the folder of the file.
+    std::string_view buffer(const GltfValue& buffer);
+    /// The bytes of an element of `bufferViews`, decompressed at the first use.
+    std::string_view view(const GltfValue& view);
+
+  private:
+    void parse_chunks();
+    void parse_json(std::string_view text);
+
+    FileBytes bytes_;
+    Json json_;
+    bool is_binary_ = false, has_binary_chunk_ = false;
+    std::string_view json_text_, binary_chunk_, other_chunks_;
+    std::map<std::string, FileBytes> buffers_; ///< by place; those that are files or data URIs
+    std::map<std::string, std::string> decompressed_;
+};
+
+}

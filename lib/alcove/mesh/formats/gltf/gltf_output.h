@@ -1,0 +1,55 @@
+/// A glTF file to be written: its JSON, and data that is appended to its buffers.
+#pragma once
+
+#include "alcove/mesh/formats/gltf/gltf_file.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace alcove {
+
+class GltfOutput {
+  public:
+    /// An empty file.
+    explicit GltfOutput(const std::filesystem::path& target);
+    /// A copy of a file. In a .glb, its first buffer becomes the binary chunk if it is the only one. In another folder,
+    /// buffers that are files become part of the output. `file` must outlive this.
+    GltfOutput(const std::filesystem::path& target, GltfFile& file);
+
+    Json& json() { return json_; }
+    /// Each appends an accessor, and returns its index.
+    std::size_t add_floats(std::span<const float> values, std::size_t components);
+    std::size_t add_positions(std::span<const float> values); ///< with their bounds
+    std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
+    std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
+    /// Appends a PNG, and returns the index in `images`.
+    std::size_t add_png(std::string_view bytes, const std::string& name);
+
+    /// Writes a .glb, or a .gltf with its data embedded. \throw IoError, LimitError beyond 4 GB.
+    void write();
+
+    /// The paths of images that were rewritten relative to the folder of the target, or not found.
+    std::vector<std::string> warnings() const { return warnings_; }
+
+  private:
+    std::size_t add_view(std::string_view bytes, int target);
+    std::size_t add_accessor(Json accessor);
+    void embed_buffers(GltfFile& file);
+    void move_images(const std::filesystem::path& from);
+    void finish_buffers();
+
+    std::filesystem::path target_;
+    bool is_binary_, is_indented_ = false;
+    Json json_;
+    std::string_view binary_, other_chunks_; ///< of the file
+    bool appends_to_binary_ = true;          ///< else to a buffer of its own
+    std::string added_;                      ///< after binary_, which is padded to a multiple of 4
+    std::vector<std::string> warnings_;
+};
+
+}

@@ -1,0 +1,26 @@
+/// Adds the values of a mesh to the glTF file that it was read from.
+#pragma once
+
+#include "alcove/mesh/formats/gltf/gltf_document.h"
+#include "alcove/mesh/formats/gltf/gltf_output.h"
+#include "alcove/mesh/mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+/// "_AO" for "ao".
+std::string gltf_attribute_name(std::string_view name);
+
+/// Linear colours of 16 bits.
+std::vector<std::array<std::uint16_t, 4>> linear_colors(std::span<const Color> colors, ColorEncoding encoding);
+
+/// Adds the attributes and colours of `mesh`. Instances of one glTF mesh share values that differ by an RMSE of at most
+/// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about that, and what is replaced.
+std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh);
+
+/// Puts Mesh::added_comments into the extras of the asset.
+void add_comments(Json& json, const Mesh& mesh);
+
+}

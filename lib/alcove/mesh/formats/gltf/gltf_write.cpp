@@ -1,0 +1,332 @@
+#include "alcove/mesh/formats/gltf/gltf_write.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/mesh/detail/srgb.h"
+#include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/gltf/gltf_values.h"
+#include "alcove/mesh/formats/obj/materials.h"
+#include "alcove/mesh/formats/obj/obj_document.h"
+#include "alcove/mesh/normals.h"
+#include "alcove/mesh/triangulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <unordered_map>
+
+namespace alcove {
+namespace {
+
+/// The vertices of a glTF mesh: one for each different combination of a vertex with a texture coordinate and a normal.
+struct SplitVertices {
+    std::vector<std::uint32_t> source; ///< vertex of the Mesh
+    std::vector<std::uint32_t> corner; ///< a corner with these values; empty if vertices are not split
+    std::vector<Triangle> triangles;
+};
+
+struct CornerKey {
+    std::uint32_t vertex;
+    std::array<float, 5> values; ///< u, v, normal
+    bool operator==(const CornerKey& other) const { return std::memcmp(this, &other, sizeof(*this)) == 0; }
+};
+static_assert(sizeof(CornerKey) == 6 * sizeof(float));
+
+struct CornerHash {
+    std::size_t operator()(const CornerKey& key) const {
+        return std::hash<std::string_view>()({reinterpret_cast<const char*>(&key), sizeof(key)});
+    }
+};
+
+SplitVertices split(const Mesh& mesh) {
+    SplitVertices result;
+    result.triangles = triangulate(mesh).triangles;
+    if (mesh.corner_uvs.empty() && mesh.corner_normals.empty()) {
+        result.source.resize(mesh.vertex_count());
+        for (std::uint32_t v = 0; v < result.source.size(); ++v)
+            result.source[v] = v;
+        return result;
+    }
+    const std::vector<Triangle> corners = corners_of_triangles(mesh);
+    std::unordered_map<CornerKey, std::uint32_t, CornerHash> known;
+    for (std::size_t t = 0; t < result.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            CornerKey key{result.triangles[t][k], {}};
+            const std::uint32_t corner = corners[t][k];
+            if (!mesh.corner_uvs.empty())
+                key.values = {mesh.corner_uvs[corner].x, mesh.corner_uvs[corner].y, 0.0f, 0.0f, 0.0f};
+            if (!mesh.corner_normals.empty())
+                std::copy_n(&mesh.corner_normals[corner].x, 3, key.values.data() + 2);
+            const auto [place, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(result.source.size()));
+            if (is_new) {
+                result.source.push_back(key.vertex);
+                result.corner.push_back(corner);
+            }
+            result.triangles[t][k] = place->second;
+        }
+    return result;
+}
+
+/// Builds a file with one node for a mesh that does not come from one.
+class GltfMaker {
+  public:
+    GltfMaker(GltfOutput& output, const Mesh& mesh) : output_(output), mesh_(mesh), vertices_(split(mesh)) {
+        if (vertices_.triangles.empty())
+            throw InputError((mesh.name.empty() ? "" : mesh.name + ": ") +
+                             "no face can be stored in glTF: each has fewer than three different corners, or a corner "
+                             "that is not finite");
+    }
+
+    std::vector<std::string> make() {
+        Json& json = output_.json();
+        json["scene"] = 0;
+        json["scenes"] = {{{"nodes", {0}}}};
+        json["nodes"] = {{{"mesh", 0}}};
+        json["meshes"] = Json::array();
+        Json attributes = {{"POSITION", add_positions()}};
+        add_normals(attributes);
+        add_uvs(attributes);
+        for (const Attribute& attribute : mesh_.attributes)
+            if (attribute.name != "quality" && attribute.components <= 4) {
+                const auto components = static_cast<std::size_t>(attribute.components);
+                attributes[gltf_attribute_name(attribute.name)] =
+                    output_.add_floats(gathered(attribute.values, components), components);
+            }
+        const bool adds = !mesh_.added_colors.empty();
+        if (const std::vector<Color>& colors = adds ? mesh_.added_colors : mesh_.vertex_colors; !colors.empty())
+            attributes["COLOR_0"] = output_.add_colors(
+                linear_colors(gathered(colors, 1), adds ? mesh_.added_encoding : ColorEncoding::srgb));
+        json["meshes"].push_back({{"primitives", primitives(attributes)}});
+        return std::move(lost_);
+    }
+
+  private:
+    template <class T>
+    std::vector<T> gathered(const std::vector<T>& values, std::size_t components) const {
+        std::vector<T> result;
+        result.reserve(vertices_.source.size() * components);
+        for (const std::uint32_t v : vertices_.source) {
+            const auto first = values.begin() + static_cast<std::ptrdiff_t>(v * components);
+            result.insert(result.end(), first, first + static_cast<std::ptrdiff_t>(components));
+        }
+        return result;
+    }
+
+    /// Floats; relative to the centre of the mesh, which the node is moved to, if floats would move a vertex by more
+    /// than 1e-6 of the diagonal.
+    std::size_t add_positions() {
+        constexpr double tolerance = 1e-6;
+        const Box box = mesh_.box();
+        const bool fits = std::all_of(mesh_.positions.begin(), mesh_.positions.end(), [&](const Vec3d& p) {
+            return !is_finite(p) || glm::distance(Vec3d(Vec3(p)), p) <= tolerance * box.diagonal();
+        });
+        const Vec3d center = fits ? Vec3d(0.0) : box.center();
+        if (!fits)
+            output_.json()["nodes"][0]["translation"] = {center.x, center.y, center.z};
+        std::vector<float> floats;
+        std::size_t not_finite = 0;
+        for (const std::uint32_t v : vertices_.source) {
+            const Vec3 p(mesh_.positions[v] - center);
+            const bool finite = alcove::is_finite(Vec3d(p));
+            not_finite += !finite;
+            for (int c = 0; c < 3; ++c)
+                floats.push_back(finite ? p[c] : 0.0f);
+        }
+        if (not_finite > 0)
+            lost_.push_back("not stored in glTF: " + counted(not_finite, "vertex that is", "vertices that are") +
+                            " not finite; put at the origin");
+        return output_.add_positions(floats);
+    }
+
+    void add_normals(Json& attributes) {
+        const bool by_corner = !mesh_.corner_normals.empty();
+        if (!by_corner && mesh_.normals.empty())
+            return;
+        const std::vector<Vec3> of_faces = angle_weighted_normals(mesh_, triangulate(mesh_).triangles);
+        std::vector<float> floats;
+        floats.reserve(3 * vertices_.source.size());
+        for (std::size_t i = 0; i < vertices_.source.size(); ++i) {
+            Vec3 normal = by_corner ? mesh_.corner_normals[vertices_.corner[i]] : mesh_.normals[vertices_.source[i]];
+            normal = unit_or_zero(Vec3d(normal));
+            if (normal == Vec3(0.0f))
+                normal = of_faces[vertices_.source[i]];
+            if (normal == Vec3(0.0f)) // glTF has none without a direction
+                normal = {0.0f, 0.0f, 1.0f};
+            floats.insert(floats.end(), {normal.x, normal.y, normal.z});
+        }
+        attributes["NORMAL"] = output_.add_floats(floats, 3);
+    }
+
+    void add_uvs(Json& attributes) {
+        if (mesh_.vertex_uvs.empty() && mesh_.corner_uvs.empty())
+            return;
+        std::vector<float> floats;
+        floats.reserve(2 * vertices_.source.size());
+        for (std::size_t i = 0; i < vertices_.source.size(); ++i) {
+            const Vec2& uv = mesh_.corner_uvs.empty() ? mesh_.vertex_uvs[vertices_.source[i]]
+                                                      : mesh_.corner_uvs[vertices_.corner[i]];
+            for (const float value : {uv.x, 1.0f - uv.y})
+                floats.push_back(std::isfinite(value) ? value : 0.0f);
+        }
+        attributes["TEXCOORD_0"] = output_.add_floats(floats, 2);
+    }
+
+    struct Material {
+        std::string name;
+        std::array<float, 4> color; ///< linear
+        auto operator<=>(const Material&) const = default;
+    };
+
+    /// The material of each face; empty if there are none.
+    std::vector<Material> face_materials() {
+        std::vector<Material> materials;
+        const auto decoded = [](double encoded) { return static_cast<float>(decode_srgb(encoded)); };
+        if (!mesh_.face_colors.empty()) {
+            for (const Color& c : mesh_.face_colors)
+                materials.push_back(
+                    {"", {decoded(c[0] / 255.0), decoded(c[1] / 255.0), decoded(c[2] / 255.0), float(c[3]) / 255.0f}});
+        } else if (const auto* obj = dynamic_cast<const ObjDocument*>(mesh_.source.get());
+                   obj && !obj->material_uses.empty()) {
+            const FaceMaterials read = read_materials(mesh_);
+            lost_.insert(lost_.end(), read.warnings.begin(), read.warnings.end());
+            constexpr std::array<float, 4> white{1.0f, 1.0f, 1.0f, 1.0f};
+            materials.resize(mesh_.face_count(), {"", white});
+            for (std::size_t i = 0; i < obj->material_uses.size(); ++i)
+                for (std::size_t f = obj->material_uses[i].first_face; f < materials.size(); ++f)
+                    materials[f].name = obj->material_uses[i].name;
+            for (std::size_t f = 0; f < materials.size(); ++f)
+                if (const std::optional<Vec3>& kd = read.diffuse[f])
+                    materials[f].color = {decoded(kd->x), decoded(kd->y), decoded(kd->z), 1.0f};
+        }
+        return materials;
+    }
+
+    Json primitives(const Json& attributes) {
+        const std::vector<std::uint32_t> faces = faces_of_triangles(mesh_);
+        std::vector<Material> of_faces = face_materials();
+        std::map<Material, std::vector<std::uint32_t>> indices;
+        for (std::size_t t = 0; t < faces.size(); ++t) {
+            std::vector<std::uint32_t>& own = indices[of_faces.empty() ? Material{} : of_faces[faces[t]]];
+            own.insert(own.end(), vertices_.triangles[t].begin(), vertices_.triangles[t].end());
+        }
+        constexpr std::size_t most_materials = 1024;
+        if (indices.size() > most_materials) {
+            lost_.push_back("not stored in glTF: the colours of the faces, as there are more than " +
+                            grouped(most_materials) + " different ones");
+            of_faces.clear();
+            indices.clear();
+            for (const Triangle& t : vertices_.triangles)
+                indices[{}].insert(indices[{}].end(), t.begin(), t.end());
+        }
+        Json primitives = Json::array();
+        for (const auto& [material, own] : indices) {
+            Json primitive = {{"attributes", attributes},
+                              {"indices", output_.add_indices(own, vertices_.source.size())}};
+            if (!of_faces.empty()) {
+                Json& materials = output_.json()["materials"];
+                Json made = Json::object();
+                if (!material.name.empty())
+                    made["name"] = in_one_line(material.name);
+                made["pbrMetallicRoughness"] = {{"baseColorFactor", material.color}, {"metallicFactor", 0}};
+                if (material.color[3] < 1.0f)
+                    made["alphaMode"] = "BLEND";
+                materials.push_back(std::move(made));
+                primitive["material"] = materials.size() - 1;
+            }
+            primitives.push_back(std::move(primitive));
+        }
+        return primitives;
+    }
+
+    GltfOutput& output_;
+    const Mesh& mesh_;
+    SplitVertices vertices_;
+    std::vector<std::string> lost_;
+};
+
+/// The index of the new texture in `textures`.
+std::size_t add_image(GltfOutput& output, const GltfTexture& texture) {
+    const std::size_t image = output.add_png(texture.png, "occlusion");
+    output.json()["textures"].push_back({{"source", image}});
+    return output.json()["textures"].size() - 1;
+}
+
+Json reference(std::size_t texture, int uv_set) {
+    Json reference = {{"index", texture}};
+    if (uv_set > 0)
+        reference["texCoord"] = uv_set;
+    return reference;
+}
+
+/// Gives all primitives without a material that one.
+void set_material(Json& json, std::size_t material) {
+    for (Json& mesh : json["meshes"])
+        for (Json& primitive : mesh["primitives"])
+            if (!primitive.contains("material"))
+                primitive["material"] = material;
+}
+
+std::size_t add_material(Json& json) {
+    json["materials"].push_back(Json::object());
+    return json["materials"].size() - 1;
+}
+
+/// Whether the material had another occlusion texture.
+bool add_texture(GltfOutput& output, const GltfTexture& texture) {
+    Json& json = output.json();
+    const std::size_t number = add_image(output, texture);
+    const std::size_t material = texture.material ? *texture.material : add_material(json);
+    if (!texture.material)
+        set_material(json, material);
+    Json& occlusion = json["materials"][material]["occlusionTexture"];
+    const bool replaces = !occlusion.is_null();
+    occlusion = reference(number, texture.uv_set);
+    return replaces;
+}
+
+void add_texture_to_all(GltfOutput& output, const GltfTexture& texture) {
+    Json& json = output.json();
+    const std::size_t number = add_image(output, texture);
+    if (!json.contains("materials"))
+        set_material(json, add_material(json));
+    for (Json& material : json["materials"])
+        material["occlusionTexture"] = reference(number, texture.uv_set);
+}
+
+}
+
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
+    return write_gltf(mesh, file, {});
+}
+
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
+                                    std::span<const GltfTexture> textures) {
+    const auto* document = dynamic_cast<const GltfDocument*>(mesh.source.get());
+    std::vector<std::string> messages;
+    if (document != nullptr && document->vertex_count() == mesh.vertex_count()) {
+        GltfOutput output(file, *document->file);
+        messages = add_values(output, *document, mesh);
+        for (const GltfTexture& texture : textures)
+            if (add_texture(output, texture))
+                messages.push_back("the occlusion texture of the input is replaced");
+        add_comments(output.json(), mesh);
+        output.write();
+        for (std::string& warning : output.warnings())
+            messages.push_back(std::move(warning));
+        return messages;
+    }
+    if (mesh.source != nullptr)
+        for (const std::string& content : mesh.source->contents())
+            messages.push_back("not stored in glTF: " + content);
+    GltfOutput output(file);
+    for (std::string& lost : GltfMaker(output, mesh).make())
+        messages.push_back(std::move(lost));
+    for (const GltfTexture& texture : textures)
+        add_texture_to_all(output, texture);
+    add_comments(output.json(), mesh);
+    output.write();
+    return messages;
+}
+
+}

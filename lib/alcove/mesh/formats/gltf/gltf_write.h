@@ -1,0 +1,25 @@
+/// Writes glTF files with occlusion textures.
+#pragma once
+
+#include "alcove/mesh/mesh.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+struct GltfTexture {
+    std::optional<std::size_t> material; ///< of the file that the mesh was read from; empty: of primitives without one
+    int uv_set = 0;
+    std::string png; ///< the bytes of the image
+};
+
+/// write_mesh() to a .glb or .gltf, with textures. For a mesh that does not come from glTF, the one texture belongs to
+/// all materials.
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
+                                    std::span<const GltfTexture> textures);
+
+}

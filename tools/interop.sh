@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Tests glTF files with the programs of others: Blender's exporter and gltfpack make the inputs, the Khronos validator
+# checks the outputs, and three.js shows them. Takes about a minute after the installation; the pictures are in
+# build/interop/out.
+#
+#     tools/interop.sh [--installed]    # with --installed: without what is not installed, naming what is skipped
+set -euo pipefail
+cd "$(dirname "$0")/.."
+if [ "${1:-}" != --installed ]; then
+    packages=(blender gltfpack chromium)
+    command -v npm >/dev/null || packages+=(nodejs npm)
+    tools/setup.sh "${packages[@]}"
+    cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
+    cmake --build build --target alcove_cli
+fi
+
+work=build/interop
+rm -rf "$work/in" "$work/out"
+mkdir -p "$work/in" "$work/out"
+cp tests/interop/* tests/interop/.npmrc "$work"
+if command -v npm >/dev/null && (cd "$work" && npm ci --silent --no-audit --no-fund >npm.log 2>&1); then
+    validate() { node "$work/compare.mjs" "$@"; }
+else
+    echo "interop: skipped: the Khronos validator (npm is missing, or its registry cannot be reached)"
+    validate() { :; }
+fi
+if command -v blender >/dev/null; then
+    blender --background --python "$work/make_scenes.py" -- "$work/in" >"$work/blender.log" 2>&1 ||
+        { cat "$work/blender.log"; exit 1; }
+else
+    echo "interop: skipped: scenes from Blender (blender is missing)"
+fi
+if command -v gltfpack >/dev/null; then
+    for file in "$work"/in/*.glb; do
+        [ -e "$file" ] || break
+        case $(basename "$file" .glb) in instances | smooth_monkey | textured | five_objects | many_materials) ;; *) continue ;; esac
+        gltfpack -i "$file" -o "${file%.glb}_quantized.glb" >/dev/null
+        gltfpack -i "$file" -o "${file%.glb}_meshopt.glb" -cc >/dev/null
+        gltfpack -i "$file" -o "${file%.glb}_instanced.glb" -mi -noq >/dev/null
+    done
+else
+    echo "interop: skipped: compressed scenes (gltfpack is missing)"
+fi
+
+failed=0 count=0
+check() {
+    count=$((count + 1))
+    "$@" || { failed=$((failed + 1)); echo "interop: failed: $*"; }
+}
+for file in "$work"/in/*.gl*; do
+    [ -e "$file" ] || break
+    output=$work/out/$(basename "$file")
+    check build/alcove bake "$file" -o "$output" --attributes ao,bent_normal --quiet
+    check validate "$file" "$output"
+    baked_again=${output%.*}_again.${output##*.}
+    check build/alcove bake "$output" -o "$baked_again" --attributes convexity --quiet
+    check validate "$output" "$baked_again"
+done
+if [ -d build/meshes/meshes ]; then
+    for file in build/meshes/meshes/{elephant.off,cube_poly.off,mesh_with_colors.off,cactus.off}; do
+        output=$work/out/$(basename "$file" .off).glb
+        check build/alcove bake "$file" -o "$output" --quiet
+        check validate "$file" "$output" --converted
+    done
+fi
+if [ -e "$work/in/textured.glb" ]; then
+    for name in textured two_uv_sets; do
+        check build/alcove bake "$work/in/$name.glb" -o "$work/out/${name}_map.glb" --into texture --size 256 --quiet
+        check validate "$work/in/$name.glb" "$work/out/${name}_map.glb"
+    done
+fi
+if command -v chromium >/dev/null && [ -d "$work/node_modules/playwright-core" ] && [ -e "$work/out/textured_map.glb" ]; then
+    check node "$work/screenshots.mjs" "$work" out/{five_objects,instances,mirrored,instances_quantized,hierarchy}.glb=colors \
+        out/textured_map.glb=texture
+else
+    echo "interop: skipped: three.js (chromium, npm or Blender is missing)"
+fi
+echo "interop: $count checks, $failed failed"
+[ "$failed" -eq 0 ]
