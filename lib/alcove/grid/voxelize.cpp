@@ -101,7 +101,10 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         check_clustered(plan, clustered->surface().triangles.size(), options.grid);
         stack.clustered = clustered->surface().triangles.size() < triangles.size();
     }
-    stack.sign = choose_sign(options.sign, mesh, columns, is_balanced, positions, triangles, stack.warnings);
+    std::vector<std::string> about_faces;
+    stack.sign = choose_sign(options.sign, mesh, columns, is_balanced, positions, triangles, about_faces);
+    if (options.warns_of_faces)
+        stack.warnings.insert(stack.warnings.end(), about_faces.begin(), about_faces.end());
     Surface near = clustered ? clustered->surface() : whole;
     std::vector<Triangle> single;
     if (stack.sign == Sign::sheet) {

@@ -44,6 +44,7 @@ enum class SignChoice {
 struct VoxelizeOptions {
     GridOptions grid;
     SignChoice sign = SignChoice::automatic;
+    bool warns_of_faces = true; ///< that are flipped or face inward; of little use for a reconstructed surface
     /// Called a few times with the share of the work that is done, in [0, 1], on the calling thread.
     std::function<void(double done)> progress = {};
 };
@@ -76,6 +77,31 @@ using Sampler = std::function<void(std::span<const Vec3> points, float* distance
 /// `voxel`, and ignores what is outside. Samples the centre of each block of 8³ voxels, then each voxel of the
 /// blocks near the surface. \throw InputError if there is no surface.
 Mesh mesh_zero_surface(const Sampler& sample, float voxel);
+
+struct PointOptions {
+    std::optional<Length> point_size{}; ///< distance between neighbouring points; empty: measured
+    /// The smallest voxel of the reconstruction, unit space. It is otherwise 0.9 times the point size.
+    float least_voxel = 1.0f / 1024.0f;
+};
+
+/// The surface of points.
+struct PointSurface {
+    Mesh mesh; ///< quads; Mesh::warnings counts points that were left out and normals that were estimated
+    /// Where the points lie on it, scene units, and their normals. Zero normals: outliers, points that are not finite, and
+    /// points where there is no surface.
+    std::vector<Vec3d> positions;
+    std::vector<Vec3> normals;
+    std::vector<std::uint32_t> faces; ///< on which they lie
+};
+
+/// Reconstructs the surface of a mesh without faces, whose vertices are points of a scan, with or without normals. Holes
+/// of up to about twice the point size are closed, and larger ones stay open. Outliers are left out. Missing normals are
+/// estimated. Cost: 2 to 4 µs per point on one thread. \throw InputError if the points are too few, or no surface is
+/// found; LimitError if it exceeds the memory limit.
+PointSurface surface_of_points(const Mesh& points, const PointOptions& options = {});
+
+/// The mesh itself, or if it has no faces, the surface of its points.
+Mesh with_surface(Mesh mesh, const PointOptions& options = {});
 
 /// Adds coarser levels, voxelized from the zero isosurface, until the last reaches `radius` (unit space; infinity is
 /// clamped to the diagonal). With `inside`, replaces a stack for which knows_inside() is false by one of the same
