@@ -336,5 +336,25 @@ TEST(Bake, AddsWhatItBaked) {
     EXPECT_THROW(add(other, baked), InputError);
 }
 
+TEST(Bake, PointsGetTheClosedFormOfTheirSurface) {
+    // Points of a sphere of radius 1 that face inward: within R, the sphere takes the share R²/4 of the cosine-weighted
+    // hemisphere.
+    Mesh points;
+    for (std::size_t i = 0; i < 20000; ++i) {
+        const double z = 1.0 - 2.0 * (static_cast<double>(i) + 0.5) / 20000.0, angle = 2.399963229728653 * double(i);
+        const Vec3d n(std::sqrt(1.0 - z * z) * std::cos(angle), std::sqrt(1.0 - z * z) * std::sin(angle), z);
+        points.positions.push_back(n);
+        points.normals.emplace_back(-n);
+    }
+    const double reach = 1.0;
+    const Baked baked = bake(points, {.radius = "1"});
+    ASSERT_EQ(baked.ao().size(), 20000u);
+    double squares = 0.0;
+    for (const float ao : baked.ao())
+        squares += std::pow(ao - (1.0 - reach * reach / 4.0), 2);
+    EXPECT_LT(std::sqrt(squares / 20000.0), 0.03);
+    EXPECT_TRUE(baked.warnings.empty()) << baked.warnings.front();
+}
+
 }
 }

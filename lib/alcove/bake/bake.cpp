@@ -4,6 +4,7 @@
 #include "alcove/bake/detail/options.h"
 #include "alcove/bake/detail/parts.h"
 #include "alcove/bake/detail/provenance.h"
+#include "alcove/bake/detail/selection.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
@@ -11,6 +12,7 @@
 #include "alcove/grid/voxelize.h"
 #include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/detail/source.h"
+#include "alcove/mesh/detail/srgb.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
@@ -23,12 +25,16 @@ namespace {
 
 /// A mesh and the data that all its targets share.
 struct PreparedMesh {
-    const Mesh& mesh;
-    std::vector<Triangle> triangles;
+    Mesh of_selection;               ///< with the faces that are baked or occlude, if there is a selection
+    const Mesh* whole;               ///< if there is none
+    std::vector<Triangle> triangles; ///< that occlude
     Frame frame;
     VoxelizeOptions voxelizing;
     float radius;
     std::optional<GridStack> grid{}; ///< the given one, reframed to the mesh and extended to the radius
+    std::optional<SelectedFaces> selected{};
+
+    const Mesh& mesh() const { return selected ? of_selection : *whole; }
 };
 
 std::string named(const Mesh& mesh, const std::string& message) {
@@ -49,7 +55,7 @@ Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
 void check_distance(GridStack grid, const PreparedMesh& prepared, std::vector<std::string>& warnings) {
     grid.levels.resize(1);
     const LevelStack field(grid);
-    const Mesh& mesh = prepared.mesh;
+    const Mesh& mesh = prepared.mesh();
     const std::vector<std::uint8_t> used = mesh.used_vertices();
     std::size_t count = 0, off = 0;
     for (std::size_t v = 0; v < used.size(); ++v)
@@ -85,7 +91,7 @@ void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<s
 /// Whether a triangle has an area in unit space, where grids and rays are.
 bool has_area(const PreparedMesh& prepared) {
     const auto unit = [&](std::uint32_t v) {
-        return (prepared.mesh.positions[v] - prepared.frame.center) / prepared.frame.diagonal;
+        return (prepared.mesh().positions[v] - prepared.frame.center) / prepared.frame.diagonal;
     };
     return std::any_of(prepared.triangles.begin(), prepared.triangles.end(), [&](const Triangle& t) {
         const Vec3d origin = unit(t[0]), a = unit(t[1]) - origin, b = unit(t[2]) - origin;
@@ -93,8 +99,28 @@ bool has_area(const PreparedMesh& prepared) {
     });
 }
 
+/// The triangles of the faces of `mesh` that occlude.
+std::vector<Triangle> occluding_triangles(const Mesh& mesh, const PreparedMesh& prepared) {
+    std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    if (!prepared.selected)
+        return triangles;
+    const std::vector<std::uint32_t> faces = faces_of_triangles(mesh);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (prepared.selected->occluding[faces[t]])
+            triangles[kept++] = triangles[t];
+    triangles.resize(kept);
+    return triangles;
+}
+
 PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<std::string>& warnings) {
-    PreparedMesh prepared{mesh, triangulate(mesh).triangles, frame_of(mesh.box()), {}, 0.0f};
+    PreparedMesh prepared{{}, &mesh, {}, {}, {}, 0.0f};
+    if (!options.faces.empty()) {
+        prepared.selected = select_faces(mesh, options.faces);
+        prepared.of_selection = remaining(mesh, *prepared.selected);
+    }
+    prepared.triangles = occluding_triangles(mesh, prepared);
+    prepared.frame = frame_of(prepared.mesh().box());
     if (!has_area(prepared)) // voxelize() finds out too, but rays do not
         throw InputError("the mesh has no face with nonzero area: there is no surface to occlude anything");
     prepared.voxelizing = voxelizing_of(options, prepared.frame);
@@ -104,12 +130,33 @@ PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<s
     return prepared;
 }
 
+/// 1 for each vertex of a face that is baked; empty without a selection.
+std::vector<std::uint8_t> selected_vertices(const Mesh& whole, const PreparedMesh& prepared) {
+    if (!prepared.selected)
+        return {};
+    std::vector<std::uint8_t> vertices(whole.vertex_count(), 0);
+    for (std::size_t f = 0; f < whole.face_count(); ++f)
+        if (prepared.selected->baked[f])
+            for (const std::uint32_t v : whole.face(f))
+                vertices[v] = 1;
+    return vertices;
+}
+
 std::vector<Surfel> surfels_of_vertices(const PreparedMesh& prepared, NormalSource normals) {
-    return make_surfels(prepared.mesh, prepared.triangles, prepared.frame, normals);
+    const Mesh& mesh = prepared.mesh();
+    if (!prepared.selected)
+        return make_surfels(mesh, prepared.triangles, prepared.frame, normals);
+    // The normals also depend on faces that do not occlude.
+    std::vector<Surfel> surfels = make_surfels(mesh, triangulate(mesh).triangles, prepared.frame, normals);
+    const std::vector<std::uint8_t> selected = selected_vertices(*prepared.whole, prepared);
+    for (std::size_t v = 0; v < surfels.size(); ++v)
+        if (!selected[v])
+            surfels[v].normal = Vec3(0.0f);
+    return surfels;
 }
 
 std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, std::span<const SurfacePoint> points) {
-    const Mesh& mesh = prepared.mesh;
+    const Mesh& mesh = prepared.mesh();
     std::vector<Surfel> surfels;
     surfels.reserve(points.size());
     for (const SurfacePoint& point : points) {
@@ -153,6 +200,7 @@ struct SurfelSource {
     std::string_view name; ///< of the surfels, in warnings
     bool of_vertices;
     bool by_parts;
+    bool is_reconstructed; ///< the mesh is the surface of points
     std::function<std::vector<Surfel>(const PreparedMesh&)> surfels;
     IsOwnFace is_own_face;
 };
@@ -165,13 +213,15 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
     std::vector<std::string> warnings;
     try {
         const PreparedMesh prepared = prepare(mesh, options, warnings);
-        Surroundings surroundings(options, mesh, prepared.frame, prepared.radius, warnings);
-        BakeTarget whole{mesh,
+        Surroundings surroundings(options, prepared.mesh(), prepared.frame, prepared.radius, warnings);
+        VoxelizeOptions voxelizing = prepared.voxelizing;
+        voxelizing.warns_of_faces = !source.is_reconstructed;
+        BakeTarget whole{prepared.mesh(),
                          prepared.triangles,
                          prepared.frame,
                          source.surfels(prepared),
                          prepared.radius,
-                         prepared.voxelizing,
+                         voxelizing,
                          prepared.grid ? &*prepared.grid : nullptr};
         whole.is_own_face = source.is_own_face;
         for (std::string& warning : input_warnings(whole, source.name, source.of_vertices, options))
@@ -181,6 +231,8 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
                                               : bake_target(whole, task, surroundings, options.progress);
         result.seconds.grid += preparing;
         Baked baked = to_baked(std::move(result), task, prepared);
+        if (source.of_vertices)
+            baked.selected = selected_vertices(mesh, prepared);
         baked.warnings.insert(baked.warnings.begin(), warnings.begin(), warnings.end());
         return baked;
     } catch (const InputError& error) {
@@ -200,6 +252,7 @@ Baked bake_vertices(const Mesh& mesh, const BakeOptions& options) {
                         {.name = "vertices",
                          .of_vertices = true,
                          .by_parts = options.self,
+                         .is_reconstructed = false,
                          .surfels = surfels,
                          .is_own_face = uses_vertex});
 }
@@ -221,7 +274,57 @@ Baked bake_joined(Mesh mesh, const BakeOptions& options) {
             }
         baked.values[channel.channel] = std::move(values);
     }
+    if (!baked.selected.empty()) {
+        std::vector<std::uint8_t> selected;
+        selected.reserve(joined.vertex_of.size());
+        for (const std::uint32_t v : joined.vertex_of)
+            selected.push_back(baked.selected[v]);
+        baked.selected = std::move(selected);
+    }
     baked.warnings.insert(baked.warnings.begin(), joined.mesh.warnings.begin(), joined.mesh.warnings.end());
+    return baked;
+}
+
+Baked bake_on_surface(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options,
+                      bool is_reconstructed) {
+    const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); };
+    std::vector<std::uint32_t> faces(points.size()); // the search for contacts visits points at random
+    std::transform(points.begin(), points.end(), faces.begin(), [](const SurfacePoint& point) { return point.face; });
+    const auto is_own_face = [&](std::size_t i, const Triangle& t) {
+        if (faces[i] == no_face)
+            return false;
+        const std::span<const std::uint32_t> face = mesh.face(faces[i]);
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+            return std::find(face.begin(), face.end(), corner) != face.end();
+        });
+    };
+    return bake_surfels(mesh, options,
+                        {.name = "points",
+                         .of_vertices = false,
+                         .by_parts = false,
+                         .is_reconstructed = is_reconstructed,
+                         .surfels = surfels,
+                         .is_own_face = is_own_face});
+}
+
+/// Bakes the points of a mesh without faces on their surface.
+Baked bake_points(const Mesh& mesh, const BakeOptions& options) {
+    const ThreadLimit limit(options.threads);
+    check(options);
+    // Detail that is small compared with the radius hardly changes its occlusion.
+    constexpr float voxels_per_radius = 48.0f, large_radius = 0.25f;
+    const float radius = radius_of(options, frame_of(mesh.box()), {});
+    const PointSurface surface = surface_of_points(
+        mesh,
+        {options.point_size, std::max(std::min(radius, large_radius) / voxels_per_radius, PointOptions{}.least_voxel)});
+    std::vector<SurfacePoint> points(mesh.vertex_count());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {surface.positions[i], surface.normals[i], surface.faces[i]};
+    BakeOptions on_surface = options;
+    if (options.sign == SignChoice::automatic)
+        on_surface.sign = SignChoice::sheet; // scans have holes
+    Baked baked = bake_on_surface(surface.mesh, points, on_surface, true);
+    baked.warnings.insert(baked.warnings.begin(), surface.mesh.warnings.begin(), surface.mesh.warnings.end());
     return baked;
 }
 
@@ -238,10 +341,25 @@ bool has_colors(const Mesh& mesh) {
 /// colours, so those of an earlier bake are replaced.
 bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
-        return baked.attributes.has(Channel::ao) && use == ColorUse::ao;
+        return baked.attributes.has(Channel::ao) && use != ColorUse::none;
     if (mesh.format == "OBJ" && !earlier_bake(mesh).empty())
         return true;
     return !has_colors(mesh) && (!has_property(mesh, "quality") || names_value(earlier_bake(mesh), "quality"));
+}
+
+/// The colours of the mesh, or white, times ao, in linear light.
+std::vector<Color> multiplied(const Mesh& mesh, const std::vector<float>& ao) {
+    std::vector<Color> colors = mesh.vertex_colors;
+    colors.resize(ao.size(), {255, 255, 255, 255});
+    for (std::size_t v = 0; v < colors.size(); ++v) {
+        Vec3 linear;
+        for (int c = 0; c < 3; ++c)
+            linear[c] = static_cast<float>(decode_srgb(colors[v][static_cast<std::size_t>(c)] / 255.0)) * ao[v];
+        const std::uint8_t alpha = colors[v][3];
+        colors[v] = srgb_color(linear);
+        colors[v][3] = alpha;
+    }
+    return colors;
 }
 
 /// Warns if viewers will show other colours than the ao.
@@ -280,24 +398,13 @@ std::string GridSummary::text() const {
 }
 
 Baked bake(const Mesh& mesh, const BakeOptions& options) {
+    if (mesh.face_count() == 0)
+        return bake_points(mesh, options);
     return options.weld ? bake_joined(mesh, options) : bake_vertices(mesh, options);
 }
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
-    const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); };
-    std::vector<std::uint32_t> faces(points.size()); // the search for contacts visits points at random
-    std::transform(points.begin(), points.end(), faces.begin(), [](const SurfacePoint& point) { return point.face; });
-    const auto is_own_face = [&](std::size_t i, const Triangle& t) {
-        if (faces[i] == no_face)
-            return false;
-        const std::span<const std::uint32_t> face = mesh.face(faces[i]);
-        return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
-            return std::find(face.begin(), face.end(), corner) != face.end();
-        });
-    };
-    return bake_surfels(
-        mesh, options,
-        {.name = "points", .of_vertices = false, .by_parts = false, .surfels = surfels, .is_own_face = is_own_face});
+    return bake_on_surface(mesh, points, options, false);
 }
 
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
@@ -310,9 +417,11 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
     // The `quality` of an earlier bake is out of date.
     const bool rated =
         colored || (!baked.ao().empty() && has_property(mesh, "quality") && names_value(earlier_bake(mesh), "quality"));
-    if (colored)
-        mesh.added_colors = grey_colors(baked.ao(), options.encoding);
-    else
+    if (colored) {
+        mesh.added_colors = options.color == ColorUse::multiply ? multiplied(mesh, baked.ao())
+                                                                : grey_colors(baked.ao(), options.encoding);
+        mesh.added_encoding = options.color == ColorUse::multiply ? ColorEncoding::srgb : options.encoding;
+    } else
         warn_of_kept_colors(mesh, baked.ao(), options.color);
     if (rated)
         mesh.set_attribute({"quality", 1, baked.ao()});
@@ -320,6 +429,9 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
         if (const auto& values = baked[channel.channel]; !values.empty())
             mesh.set_attribute({std::string(channel.name), static_cast<int>(channel.components), values});
     const GridSummary& grid = baked.grid_summary;
+    mesh.baked_vertices = baked.selected;
+    constexpr double usual_error = 0.02;
+    mesh.instance_error = baked.target.value_or(baked.rmse.value_or(usual_error));
     mesh.added_comments.push_back(fmt::format("{}{}: {}{} by {}, radius {:.6g}, {}", provenance, ALCOVE_VERSION,
                                               names_of(baked.attributes), rated ? ", quality" : "", baked.method,
                                               baked.radius,

@@ -41,6 +41,16 @@ enum class Via {
 /// if the planner bakes again. Never called from two threads at once. An exception that it throws ends the bake.
 using BakeProgress = std::function<void(std::string_view work, double done)>;
 
+/// Faces by the names of their FaceGroup, in which * stands for any text and ? for any character.
+struct FaceSelection {
+    std::vector<std::string> only{};       ///< bake these alone; all others still occlude
+    std::vector<std::string> exclude{};    ///< neither bake these nor let them occlude
+    std::vector<std::string> no_occlude{}; ///< do not let these occlude
+    bool opaque_only = false;              ///< do not let masked or blended ones occlude
+
+    bool empty() const { return only.empty() && exclude.empty() && no_occlude.empty() && !opaque_only; }
+};
+
 struct BakeOptions {
     /// Maximum distance of occluders, > 0; may be infinite. A length in voxels needs `voxel` or `grid`.
     Length radius = "10%";
@@ -56,6 +66,7 @@ struct BakeOptions {
     std::vector<std::pair<std::string, double>> parameters{};
     std::uint32_t seed = 0; ///< for the ray directions
 
+    FaceSelection faces{};         ///< all, unless given; vertices of faces that are not baked get ChannelInfo::missing
     std::vector<Mesh> occluders{}; ///< meshes that also occlude, in the same coordinates
     bool ground = false;           ///< the plane through the lowest vertex also occludes
     Vec3d up{0.0, 1.0, 0.0};       ///< normal of the ground; any length except 0
@@ -67,6 +78,8 @@ struct BakeOptions {
     /// Joins vertices within this distance of each other before the bake; finite and not in voxels. Closes gaps caused
     /// by an exporter's rounding. Each vertex gets the values of its joined vertex.
     std::optional<Length> weld{};
+    /// Of a mesh without faces: see surface_of_points().
+    std::optional<Length> point_size{};
     std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: chosen
     const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
     /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.
@@ -106,6 +119,8 @@ struct Baked {
     /// requested. ChannelInfo::missing where there is no normal.
     ChannelValues values;
     ChannelSet attributes;
+    /// Empty, or 1 for each vertex of a face that BakeOptions::faces selects.
+    std::vector<std::uint8_t> selected;
 
     std::string method;         ///< with its rays or samples: "guided:3"
     std::optional<int> samples; ///< rays or samples per vertex or point; empty if the method has neither
@@ -132,7 +147,7 @@ struct Baked {
 /// is one line that names them.
 void check(const BakeOptions& options);
 
-/// Bakes the vertices of a mesh. The values do not depend on the number of threads. Warnings and messages use the
+/// Bakes the vertices of a mesh, or if it has no faces, its points on their surface (surface_of_points()). The values do not depend on the number of threads. Warnings and messages use the
 /// option names of the command line: --radius is BakeOptions::radius.
 ///
 /// Thread-safety: concurrent calls must have the same `threads`, since that limit applies to the whole process, and
@@ -175,6 +190,7 @@ Mesh tessellate_for_ao(const Mesh& mesh, const BakeOptions& options = {});
 enum class ColorUse {
     automatic, ///< adds vertex colours and `quality`, unless the mesh already has colours or its own `quality`
     ao,        ///< adds both, and replaces those of the mesh
+    multiply,  ///< adds both, with the colours of the mesh multiplied by ao
     none,      ///< adds neither
 };
 struct AddOptions {

@@ -79,6 +79,8 @@ RaySurface MeasuredMesh::make_rays() {
 MeasuredMesh::MeasuredMesh(std::string n, Mesh m)
     : name(std::move(n)), mesh(std::move(m)), triangles(triangulate(mesh).triangles), frame(frame_of(mesh.box())),
       surfels(make_surfels(mesh, triangles, frame)), order(spatial_order(surfels)), rays(make_rays()) {
+    if (mesh.face_count() == 0)
+        throw InputError(name + ": contains points but no faces; measure a mesh");
     if (order.empty())
         throw InputError(name + ": no vertex has a normal to measure occlusion at");
     find_contacts(surfels, rays, ray_offset(std::numeric_limits<float>::infinity()), uses_vertex);

@@ -98,7 +98,8 @@ std::vector<std::string> input_warnings(const BakeTarget& target, std::string_vi
             warn_of_hard_edges(target.mesh, warnings);
         }
     }
-    warn_of_missing_normals(target.surfels, name, warnings);
+    if (options.faces.empty()) // else most have none on purpose
+        warn_of_missing_normals(target.surfels, name, warnings);
     warn_of_outliers(target, options.radius, warnings);
     warn_of_offset(target, warnings);
     return warnings;

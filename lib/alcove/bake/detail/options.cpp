@@ -56,6 +56,9 @@ void check(const BakeOptions& options) {
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
     require(!options.grid || (!options.voxel && options.sign == SignChoice::automatic),
             "--voxel and --sign apply to voxelizing, but there is a grid already: leave them out");
+    require(
+        !options.self || (options.faces.no_occlude.empty() && !options.faces.opaque_only),
+        "--self lets each part occlude only itself, so --no-occlude and --opaque-only have no effect: leave out one");
     require(!options.self || !options.grid,
             "--self needs a grid for each part, but the given grid contains all parts: leave out one of them");
     require(!options.self || !options.keep_grid,

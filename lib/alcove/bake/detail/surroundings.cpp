@@ -4,6 +4,7 @@
 #include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/grid/detail/plan.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/detail/clip.h"
 #include "alcove/mesh/triangulate.h"
 #include "alcove/occlusion/detail/directions.h"
@@ -44,6 +45,8 @@ Surroundings::Surroundings(const BakeOptions& options, const Mesh& mesh, const F
 
 void Surroundings::add(const Mesh& occluder, const Box& near, std::vector<std::string>& warnings) {
     const std::string name = occluder.name.empty() ? "an occluder" : occluder.name;
+    if (occluder.face_count() == 0)
+        return add(with_surface(occluder), near, warnings);
     Mesh mesh = clip(occluder, triangulate(occluder).triangles, near);
     if (mesh.face_count() == 0) {
         warnings.push_back(name + " is too far away to occlude anything within the radius");

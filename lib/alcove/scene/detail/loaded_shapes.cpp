@@ -2,6 +2,7 @@
 
 #include "alcove/base/types.h"
 #include "alcove/field/level_stack.h"
+#include "alcove/grid/voxelize.h"
 #include "alcove/mesh/detail/gaps.h"
 #include "alcove/mesh/detail/join.h"
 #include "alcove/mesh/files.h"
@@ -61,7 +62,7 @@ class Loader {
     void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
         std::shared_ptr<LoadedMesh>& file = meshes_[key_of(shape)];
         if (!file) {
-            file = std::make_shared<LoadedMesh>(LoadedMesh{read_mesh(shape.file), {}});
+            file = std::make_shared<LoadedMesh>(LoadedMesh{with_surface(read_mesh(shape.file)), {}});
             if (shape.weld)
                 file->mesh = join_vertices(file->mesh, *shape.weld).mesh;
             file->triangles = triangulate(file->mesh).triangles;
