@@ -153,6 +153,8 @@ TEST(Projection, ASphereProjectsOntoAFinerOne) {
     const double reach = projection.reach_for(from);
     EXPECT_GT(reach, 0.005);
     EXPECT_LT(reach, 0.1); // five times the depth of the facets
+    for (ProjectedFrom& point : from)
+        point.front = reach;
     const std::vector<ProjectedTo> to = projection.project(from, reach);
     for (std::size_t i = 0; i < to.size(); ++i) {
         ASSERT_TRUE(to[i].hit);
@@ -160,6 +162,31 @@ TEST(Projection, ASphereProjectsOntoAFinerOne) {
         EXPECT_NEAR(to[i].height, 1.0 - glm::length(from[i].position), 3e-4);
         EXPECT_GT(glm::dot(to[i].point.normal, from[i].direction), 0.999f);
     }
+}
+
+TEST(Projection, ACageLooksInItsOwnDirection) {
+    // Beside a step of the high mesh, the normal meets its top, and a slanted cage its side.
+    const Mesh low = low_square();
+    const std::vector<Mesh> high{high_square(48, [](double x, double) { return x < 0.0 ? 0.0 : 0.2; })};
+    MapOptions options = options_with(high);
+    options.reach = Length(0.5);
+    options.cage = low;
+    for (Vec3d& p : options.cage->positions)
+        p += Vec3d(0.4, 0.0, 0.4); // seen from the right, at 45 degrees
+    const BakedMaps maps = bake_maps(low, {.radius = "10%"}, options);
+    const std::vector<float>& positions = layer(maps.tiles[0], MapAttribute::position).values;
+    for (std::size_t i = 0; i < maps.tiles[0].coverage.size(); ++i) {
+        if (maps.tiles[0].coverage[i] != Coverage::face)
+            continue;
+        // The ray runs through the texel in the direction (1, 0, 1).
+        const Vec3d place = place_of(i);
+        EXPECT_NEAR(positions[3 * i] - place.x, positions[3 * i + 2] - place.z, 1e-5);
+        EXPECT_NEAR(positions[3 * i + 1], place.y, 1e-5);
+    }
+    options.cage->positions.pop_back();
+    options.cage->face_begin = {0};
+    options.cage->corners.clear();
+    EXPECT_THROW(bake_maps(low, {}, options), InputError);
 }
 
 }

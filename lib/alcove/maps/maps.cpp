@@ -1,11 +1,13 @@
 #include "alcove/maps/maps.h"
 
+#include "alcove/bake/detail/selection.h"
 #include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/maps/detail/padding.h"
 #include "alcove/maps/detail/rasterize.h"
 #include "alcove/maps/detail/uv_faces.h"
+#include "alcove/maps/detail/uv_layout.h"
 
 #include <fmt/format.h>
 
@@ -43,12 +45,29 @@ Mesh united(std::span<const Mesh> meshes) {
     return all;
 }
 
-/// Bakes the tiles one after another, in batches of samples.
+/// A tile that is being baked.
+struct OpenTile {
+    const UvFaces* faces = nullptr;
+    UvTile uvs{};
+    TexelOwners owners;
+    MapTile map;
+    std::vector<std::uint16_t> counts; ///< samples per texel
+    std::vector<std::uint8_t> wanted;  ///< 1 for texels of a face
+};
+
+/// A sample of a texel.
+struct Sample {
+    std::uint32_t tile, index; ///< the index of the tile, and of the sample in it
+};
+
+/// Bakes the samples of all tiles in batches.
 class MapBake {
   public:
-    MapBake(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options)
-        : mesh_(mesh), options_(options), bake_(bake), faces_(mesh, bake.normals),
-          width_(static_cast<std::size_t>(options.width)), texels_(width_ * static_cast<std::size_t>(options.height)) {
+    MapBake(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options, std::span<const UvLayout> layouts)
+        : mesh_(mesh), options_(options), bake_(bake), width_(static_cast<std::size_t>(options.width)),
+          texels_(width_ * static_cast<std::size_t>(options.height)) {
+        for (const UvLayout& layout : layouts)
+            layouts_.emplace_back(mesh, UvFacesOptions{bake.normals, layout.uv_set, layout.wanted});
         maps_.width = options.width;
         maps_.height = options.height;
         for (const ChannelInfo& channel : channels)
@@ -61,25 +80,34 @@ class MapBake {
         has_tangents_ = options.space == MapSpace::tangent &&
                         std::any_of(attributes_.begin(), attributes_.end(),
                                     [](MapAttribute attribute) { return info(attribute).is_direction; });
-        if (has_tangents_)
-            faces_.add_tangents();
         if (!options.high.empty()) {
             high_ = united(options.high);
-            faces_.add_directions();
             projection_.emplace(*high_, bake.normals);
             for (const Mesh& part : options.high)
                 object_ends_.push_back((object_ends_.empty() ? 0 : object_ends_.back()) + part.face_count());
         }
+        for (UvFaces& faces : layouts_) {
+            if (has_tangents_)
+                faces.add_tangents();
+            if (high_)
+                faces.add_directions();
+            if (options.cage)
+                faces.set_cage(*options.cage);
+        }
     }
 
     BakedMaps run() {
-        const std::vector<int> tiles = faces_.tiles(options_.udim);
+        std::vector<std::pair<const UvFaces*, int>> tiles;
+        for (const UvFaces& faces : layouts_)
+            for (const int udim : faces.tiles(options_.udim))
+                tiles.emplace_back(&faces, udim);
         check_memory(tiles.size());
         maps_.box = surface().box();
         if (projection_)
             maps_.reach = reach();
-        for (const int udim : tiles)
-            bake_tile(udim);
+        for (const auto& [faces, udim] : tiles)
+            add_tile(*faces, udim);
+        flush();
         if (maps_.texels == 0)
             throw InputError(maps_.misses > 0
                                  ? "no texel is within reach of the high meshes: give a larger --reach"
@@ -100,16 +128,17 @@ class MapBake {
         if (options_.reach)
             return double(options_.reach->to_unit(projection_->diagonal())) * projection_->diagonal();
         constexpr std::size_t sample = 4096; // points, spread over triangles
-        if (faces_.uvs().empty())
+        const UvFaces& faces = layouts_.front();
+        if (faces.uvs().empty())
             return 0.0;
-        const std::size_t count = faces_.uvs().size(), stride = std::max<std::size_t>(count / sample, 1);
+        const std::size_t count = faces.uvs().size(), stride = std::max<std::size_t>(count / sample, 1);
         const auto steps = static_cast<int>(std::ceil(std::sqrt(2.0 * static_cast<double>(sample) / double(count))));
         std::vector<ProjectedFrom> points;
         for (std::size_t t = 0; t < count; t += stride)
             for (int i = 0; i <= steps; ++i)
                 for (int k = 0; k <= steps - i; ++k)
-                    points.push_back(faces_.projected_from(static_cast<std::uint32_t>(t),
-                                                           Vec3d(i, k, steps - i - k) / double(steps)));
+                    points.push_back(faces.projected_from(static_cast<std::uint32_t>(t),
+                                                          Vec3d(i, k, steps - i - k) / double(steps), 0.0));
         return projection_->reach_for(points);
     }
 
@@ -124,8 +153,9 @@ class MapBake {
     void check_memory(std::size_t tiles) const {
         const double samples = double(texels_) * options_.subsamples * options_.subsamples;
         const double values = double(tiles) * double(texels_) * (4.0 * double(components()) + 1.0);
-        const double bytes = values + bytes_per_sample * samples + bytes_per_texel * double(texels_) +
-                             bytes_per_point * std::min(samples, double(batch));
+        const double open = std::min(double(tiles), std::ceil(double(most_open) / samples));
+        const double bytes = values + open * (bytes_per_sample * samples + bytes_per_texel * double(texels_)) +
+                             bytes_per_point * std::min(double(tiles) * samples, double(batch));
         if (bytes > memory_limit())
             throw LimitError(fmt::format("maps of {} x {} texels need about {} GB, over the limit of {} GB: choose a "
                                          "smaller --size or fewer --subsamples, or raise --max-memory",
@@ -138,35 +168,49 @@ class MapBake {
         return {n * options_.width, n * options_.height, Vec2(number % udims_per_row, number / udims_per_row)};
     }
 
-    void bake_tile(int udim) {
-        const UvTile tile = tile_of(udim);
-        const TexelOwners owners = rasterize(faces_.uvs(), tile);
-        if (options_.udim && std::all_of(owners.triangles.begin(), owners.triangles.end(),
+    /// Rasterizes a tile and adds its samples to the batch, which is baked when it is full.
+    void add_tile(const UvFaces& faces, int udim) {
+        OpenTile tile{&faces, tile_of(udim), {}, {}, {}, {}};
+        tile.owners = rasterize(faces.uvs(), tile.uvs);
+        if (options_.udim && std::all_of(tile.owners.triangles.begin(), tile.owners.triangles.end(),
                                          [](std::uint32_t t) { return t == no_triangle; }))
             return;
         const auto per_side = static_cast<std::size_t>(options_.subsamples);
-        maps_.overlaps += owners.overlaps / (per_side * per_side);
-        MapTile& map = maps_.tiles.emplace_back();
-        map.udim = udim;
+        maps_.overlaps += tile.owners.overlaps / (per_side * per_side);
+        tile.map.udim = udim;
         for (const MapAttribute attribute : attributes_)
-            map.layers.push_back({attribute, std::vector<float>(texels_ * info(attribute).components, 0.0f)});
-        std::vector<std::uint16_t> counts(texels_, 0); // samples per texel
-        std::vector<std::uint8_t> wanted(texels_, 0);
-        std::vector<std::uint32_t> samples;
-        const auto flush = [&] {
-            if (!samples.empty())
-                bake_samples(tile, owners, samples, map, counts);
-            samples.clear();
-        };
-        for (std::size_t i = 0; i < owners.size(); ++i)
-            if (owners.triangles[i] != no_triangle) {
-                samples.push_back(static_cast<std::uint32_t>(i));
-                wanted[texel_of(i)] = 1;
-                if (samples.size() == batch)
-                    flush();
+            tile.map.layers.push_back({attribute, std::vector<float>(texels_ * info(attribute).components, 0.0f)});
+        tile.counts.assign(texels_, 0);
+        tile.wanted.assign(texels_, 0);
+        tiles_.push_back(std::move(tile));
+        const auto number = static_cast<std::uint32_t>(tiles_.size() - 1);
+        for (std::size_t i = 0; i < tiles_[number].owners.size(); ++i)
+            if (tiles_[number].owners.triangles[i] != no_triangle) {
+                samples_.push_back({number, static_cast<std::uint32_t>(i)});
+                tiles_[number].wanted[texel_of(i)] = 1;
+                if (samples_.size() == batch)
+                    bake_samples();
             }
-        flush();
-        finish(map, counts, wanted);
+        // A full batch leaves nothing of the earlier tiles.
+        if (samples_.empty() || samples_.front().tile == number)
+            finish_tiles(number);
+        if ((tiles_.size() - finished_) * tiles_[number].owners.size() >= most_open)
+            flush();
+    }
+
+    void flush() {
+        if (!samples_.empty())
+            bake_samples();
+        finish_tiles(static_cast<std::uint32_t>(tiles_.size()));
+    }
+
+    /// Finishes the tiles before the one of that index.
+    void finish_tiles(std::uint32_t end) {
+        for (; finished_ < end; ++finished_) {
+            finish(tiles_[finished_]);
+            maps_.tiles.push_back(std::move(tiles_[finished_].map));
+            tiles_[finished_] = OpenTile{};
+        }
     }
 
     std::size_t texel_of(std::size_t sample) const {
@@ -174,56 +218,70 @@ class MapBake {
         return sample / (n * width_) / n * width_ + sample % (n * width_) / n;
     }
 
-    void bake_samples(const UvTile& tile, const TexelOwners& owners, const std::vector<std::uint32_t>& samples,
-                      MapTile& map, std::vector<std::uint16_t>& counts) {
-        const std::vector<ProjectedTo> points = points_of(tile, owners, samples);
+    void bake_samples() {
+        const std::vector<ProjectedTo> points = points_of();
         std::vector<std::uint32_t> hit; // of the samples
         std::vector<SurfacePoint> targets;
-        for (std::uint32_t i = 0; i < samples.size(); ++i)
+        for (std::uint32_t i = 0; i < samples_.size(); ++i)
             if (points[i].hit) {
                 hit.push_back(i);
                 targets.push_back(points[i].point);
             }
-        if (hit.empty())
-            return;
-        Baked baked;
-        if (!bake_.attributes.empty())
-            baked = bake(surface(), targets, bake_);
-        for (MapLayer& layer : map.layers) {
-            std::vector<float> values = layer.attribute < MapAttribute::normal
-                                            ? std::move(baked.values[static_cast<Channel>(layer.attribute)])
-                                            : values_of_surface(layer.attribute, points, hit);
-            if (info(layer.attribute).is_direction)
-                turn_directions(tile, owners, samples, hit, values);
-            const std::size_t components = info(layer.attribute).components;
-            for (std::size_t i = 0; i < hit.size(); ++i)
-                for (std::size_t c = 0; c < components; ++c)
-                    add(layer, components * texel_of(samples[hit[i]]) + c, values[components * i + c]);
+        if (!hit.empty()) {
+            Baked baked;
+            if (!bake_.attributes.empty())
+                baked = bake(surface(), targets, bake_);
+            for (std::size_t a = 0; a < attributes_.size(); ++a) {
+                const MapAttribute attribute = attributes_[a];
+                std::vector<float> values = attribute < MapAttribute::normal
+                                                ? std::move(baked.values[static_cast<Channel>(attribute)])
+                                                : values_of_surface(attribute, points, hit);
+                if (info(attribute).is_direction)
+                    turn_directions(hit, values);
+                const std::size_t components = info(attribute).components;
+                for (std::size_t i = 0; i < hit.size(); ++i) {
+                    const Sample& sample = samples_[hit[i]];
+                    MapLayer& layer = tiles_[sample.tile].map.layers[a];
+                    for (std::size_t c = 0; c < components; ++c)
+                        add(layer, components * texel_of(sample.index) + c, values[components * i + c]);
+                }
+            }
+            for (const std::uint32_t i : hit)
+                ++tiles_[samples_[i].tile].counts[texel_of(samples_[i].index)];
+            merge(std::move(baked), hit.size());
         }
-        for (const std::uint32_t i : hit)
-            ++counts[texel_of(samples[i])];
-        merge(std::move(baked), hit.size());
+        samples_.clear();
     }
 
     static void add(MapLayer& layer, std::size_t at, float value) {
         layer.values[at] = layer.attribute == MapAttribute::object ? value : layer.values[at] + value;
     }
 
-    std::vector<ProjectedTo> points_of(const UvTile& tile, const TexelOwners& owners,
-                                       const std::vector<std::uint32_t>& samples) const {
-        std::vector<ProjectedTo> points(projection_ ? 0 : samples.size());
-        std::vector<ProjectedFrom> from(projection_ ? samples.size() : 0);
-        parallel_for(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    std::vector<ProjectedTo> points_of() const {
+        std::vector<ProjectedTo> points(projection_ ? 0 : samples_.size());
+        std::vector<ProjectedFrom> from(projection_ ? samples_.size() : 0);
+        parallel_for(samples_.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const std::uint32_t triangle = owners.triangles[samples[i]];
-                const Vec3d weights = weights_at(faces_.uvs()[triangle], tile, samples[i]);
+                const auto [faces, triangle, weights] = place_of(samples_[i]);
                 if (projection_)
-                    from[i] = faces_.projected_from(triangle, weights);
+                    from[i] = faces->projected_from(triangle, weights, maps_.reach);
                 else
-                    points[i] = {faces_.point(triangle, weights), 0.0f, true};
+                    points[i] = {faces->point(triangle, weights), 0.0f, true};
             }
         });
         return projection_ ? projection_->project(from, maps_.reach) : points;
+    }
+
+    /// A point of a triangle.
+    struct Place {
+        const UvFaces* faces;
+        std::uint32_t triangle;
+        Vec3d weights;
+    };
+    Place place_of(const Sample& sample) const {
+        const OpenTile& tile = tiles_[sample.tile];
+        const std::uint32_t triangle = tile.owners.triangles[sample.index];
+        return {tile.faces, triangle, weights_at(tile.faces->uvs()[triangle], tile.uvs, sample.index)};
     }
 
     std::vector<float> values_of_surface(MapAttribute attribute, const std::vector<ProjectedTo>& points,
@@ -246,14 +304,12 @@ class MapBake {
     }
 
     /// Into the axes of the options.
-    void turn_directions(const UvTile& tile, const TexelOwners& owners, const std::vector<std::uint32_t>& samples,
-                         const std::vector<std::uint32_t>& hit, std::vector<float>& directions) const {
+    void turn_directions(const std::vector<std::uint32_t>& hit, std::vector<float>& directions) const {
         for (std::size_t i = 0; i < hit.size(); ++i) {
             float* const d = &directions[3 * i];
             if (has_tangents_) {
-                const std::uint32_t sample = samples[hit[i]], triangle = owners.triangles[sample];
-                const Vec3 local =
-                    faces_.to_tangent(triangle, weights_at(faces_.uvs()[triangle], tile, sample), {d[0], d[1], d[2]});
+                const Place place = place_of(samples_[hit[i]]);
+                const Vec3 local = place.faces->to_tangent(place.triangle, place.weights, {d[0], d[1], d[2]});
                 d[0] = local.x, d[1] = local.y, d[2] = local.z;
             }
             if (options_.flip_green)
@@ -284,7 +340,10 @@ class MapBake {
     }
 
     /// Turns sums into means, and fills the margin and misses.
-    void finish(MapTile& map, const std::vector<std::uint16_t>& counts, const std::vector<std::uint8_t>& wanted) {
+    void finish(OpenTile& tile) {
+        MapTile& map = tile.map;
+        const std::vector<std::uint16_t>& counts = tile.counts;
+        const std::vector<std::uint8_t>& wanted = tile.wanted;
         std::vector<std::uint8_t> covered(texels_);
         std::size_t misses = 0;
         for (std::size_t i = 0; i < texels_; ++i) {
@@ -339,7 +398,10 @@ class MapBake {
     }
 
     void warn() {
-        std::vector<std::string> warnings = faces_.warnings(options_.udim);
+        std::vector<std::string> warnings;
+        for (const UvFaces& faces : layouts_)
+            for (std::string& warning : faces.warnings(options_.udim))
+                warnings.push_back(std::move(warning));
         if (maps_.overlaps > 0)
             warnings.push_back(fmt::format("{} covered by several faces (overlapping UVs): the first face is baked "
                                            "there; unwrap without overlaps to give each face its own texels",
@@ -353,18 +415,21 @@ class MapBake {
     }
 
     // Not by the memory that there is: each batch is planned by itself, and the values must not depend on the machine.
-    static constexpr std::size_t batch = 1 << 23;
+    static constexpr std::size_t batch = 1 << 23, most_open = 2 * batch; // samples; those of open tiles
 
     const Mesh& mesh_;
     const MapOptions& options_;
     BakeOptions bake_;
-    UvFaces faces_;
+    std::vector<UvFaces> layouts_;
     std::size_t width_, texels_; // of the map; texels per tile
     std::vector<MapAttribute> attributes_;
     bool has_tangents_ = false; // directions are turned into tangent space
     std::optional<Mesh> high_;
     std::optional<Projection> projection_;
     std::vector<std::size_t> object_ends_; // of the high meshes, in the faces of high_
+    std::vector<OpenTile> tiles_;
+    std::size_t finished_ = 0;    // of the tiles
+    std::vector<Sample> samples_; // of the batch
     BakedMaps maps_;
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;
 };
@@ -400,19 +465,29 @@ void check(const MapOptions& options) {
         throw InputError("--margin takes a number of texels, none or all");
     if (options.reach && !std::isfinite(options.reach->value))
         throw InputError("--reach takes a finite length");
-    if (options.high.empty() && (!options.surface.empty() || options.reach))
-        throw InputError("normal, height, position and object are those of a high mesh, and --reach is for one: give "
-                         "--high");
+    if (options.high.empty() && (!options.surface.empty() || options.reach || options.cage))
+        throw InputError("normal, height, position and object are those of a high mesh, and --reach and --cage are for "
+                         "one: give --high");
+    if (options.uv_set < 0)
+        throw InputError("--uv-set takes a number, counted from 0");
 }
 
-BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options) {
+BakedMaps bake_layouts(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options,
+                       std::span<const UvLayout> layouts) {
     const ThreadLimit limit(bake.threads);
     check(options);
     BakeOptions checked = bake;
     if (!options.surface.empty()) // needs no other attribute
         checked.attributes = bake.attributes | Channel::ao;
     check(checked);
-    return MapBake(mesh, bake, options).run();
+    return MapBake(mesh, bake, options, layouts).run();
+}
+
+BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options) {
+    UvLayout layout{options.uv_set, {}};
+    if (!bake.faces.empty())
+        layout.wanted = select_faces(mesh, bake.faces).baked;
+    return bake_layouts(mesh, bake, options, std::span(&layout, 1));
 }
 
 }

@@ -50,6 +50,7 @@ MapAttributeInfo info(MapAttribute attribute);
 
 struct MapOptions {
     int width = 2048, height = 2048; ///< texels, in [1, 16384]
+    int uv_set = 0;                  ///< of a glTF file: that of TEXCOORD_N
     bool udim = false;               ///< bake all UDIM tiles with faces, not only the unit square
     int subsamples = 1;              ///< along each axis of a texel, in [1, 8]: the values of a texel are their mean
     /// How many texels around islands are filled, >= 0; empty: 1/128 of the larger side. At least the size of the map:
@@ -64,6 +65,8 @@ struct MapOptions {
     /// How far to look for the high meshes, in front and behind; in percent, of their diagonal. Empty: from the distance
     /// of the meshes.
     std::optional<Length> reach{};
+    /// The vertices of the mesh, moved outward: texels then look from here, in the direction of the mesh.
+    std::optional<Mesh> cage{};
     EnumSet<MapAttribute> surface{}; ///< normal, height, position or object, in addition to the attributes of the bake
 };
 
@@ -109,6 +112,27 @@ struct BakedMaps {
 /// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});
+
+/// Textures of ao for the materials of a glTF scene, or one for a mesh from another format.
+struct OcclusionTextures {
+    struct Texture {
+        std::optional<std::size_t> material; ///< of the glTF file; empty: of all faces without one
+        int uv_set = 0;
+    };
+    std::vector<Texture> textures; ///< one per tile of `maps`
+    BakedMaps maps;
+};
+
+/// Bakes a texture per material, on its first set of UVs without overlaps. If a glTF mesh has several instances, all show
+/// the ao of the first one; Baked::warnings says so. The attributes and MapOptions::uv_set, udim, high and surface have
+/// no effect. \throw as bake_maps(), and InputError that names the meshes for which no set of UVs is without overlaps.
+OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake = {},
+                                          const MapOptions& options = {});
+
+/// Writes a glTF file with the textures added as the occlusionTexture of the materials. \return messages, as
+/// write_mesh(). \throw as write_mesh(); InputError for another extension than .glb and .gltf.
+std::vector<std::string> write_occlusion_textures(const Mesh& mesh, const OcclusionTextures& textures,
+                                                  const std::filesystem::path& file);
 
 enum class MapDepth { automatic, eight, sixteen, half, single };
 

@@ -34,38 +34,43 @@ Projection::Projection(const Mesh& high, NormalSource normals)
       faces_(faces_of_triangles(high)), normals_(corner_normals(high, triangles_, normals)),
       surface_(split_surface(high, triangles_, frame_)) {}
 
-std::vector<ProjectedTo> Projection::project(std::span<const ProjectedFrom> points, double reach) const {
+std::vector<ProjectedTo> Projection::project(std::span<const ProjectedFrom> points, double behind) const {
     std::vector<ProjectedTo> to(points.size());
     parallel_for(points.size(), RayBatch::capacity, [&](std::size_t begin, std::size_t end) {
         // A ray along an edge may miss both of its faces, so those beside it are tried too.
         constexpr float beside = 1e-5f; // unit space
         for (const Vec2 shift : {Vec2(0, 0), Vec2(beside, 0), Vec2(-beside, 0), Vec2(0, beside), Vec2(0, -beside)})
-            project_block(points.subspan(begin, end - begin), reach, shift, std::span(to).subspan(begin, end - begin));
+            project_block(points.subspan(begin, end - begin), behind, shift, std::span(to).subspan(begin, end - begin));
     });
     return to;
 }
 
-void Projection::project_block(std::span<const ProjectedFrom> points, double reach, const Vec2& shift,
+void Projection::project_block(std::span<const ProjectedFrom> points, double behind, const Vec2& shift,
                                std::span<ProjectedTo> to) const {
     constexpr int most_back_faces = 16;
-    const auto unit_reach = static_cast<float>(reach / frame_.diagonal);
+    double furthest = 0.0;
+    for (const ProjectedFrom& point : points)
+        furthest = std::max(furthest, point.front + behind);
     RayBatch rays;
     std::array<std::size_t, RayBatch::capacity> owner;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (points[i].direction != Vec3(0.0f) && !to[i].hit) {
             owner[rays.count] = i;
             const Basis basis(points[i].direction);
-            const Vec3 start = frame_.to_unit(points[i].position + reach * Vec3d(points[i].direction));
+            const Vec3 start = frame_.to_unit(points[i].position + points[i].front * Vec3d(points[i].direction));
             rays.push_back({start + shift.x * basis.tangent + shift.y * basis.bitangent, -points[i].direction}, 0.0f);
         }
     std::array<SurfaceHit, RayBatch::capacity> hits;
     for (int pass = 0; pass < most_back_faces && rays.count > 0; ++pass) {
-        surface_.find_nearest(rays, 2.0f * unit_reach, hits);
+        surface_.find_nearest(rays, static_cast<float>(furthest / frame_.diagonal), hits);
         RayBatch left; // rays that met a back
         for (std::size_t r = 0; r < rays.count; ++r) {
             if (!rays.hit[r])
                 continue;
             const std::size_t i = owner[r];
+            const double travelled = double(rays.travelled[r]) * frame_.diagonal;
+            if (travelled > points[i].front + behind)
+                continue;
             const Vec3 inward(rays.dx[r], rays.dy[r], rays.dz[r]);
             if (glm::dot(hits[r].normal, inward) >= 0.0f) {
                 constexpr float step = 1e-6f;
@@ -76,7 +81,7 @@ void Projection::project_block(std::span<const ProjectedFrom> points, double rea
             const std::uint32_t triangle = hits[r].vertices[0] / 3;
             ProjectedTo& result = to[i];
             result.hit = true;
-            result.height = static_cast<float>(reach - double(rays.travelled[r]) * frame_.diagonal);
+            result.height = static_cast<float>(points[i].front - travelled);
             result.point.face = faces_[triangle];
             result.point.position = Vec3d(0.0);
             Vec3d normal(0.0);

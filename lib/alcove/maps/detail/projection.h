@@ -15,6 +15,7 @@ namespace alcove {
 struct ProjectedFrom {
     Vec3d position{0.0};
     Vec3 direction{0.0f}; ///< outward, unit length
+    double front = 0.0;   ///< distance in front of the position from which to look inward, scene units
 };
 
 /// Where a point lies on the high mesh.
@@ -30,16 +31,16 @@ class Projection {
     /// Cost: about 0.3 µs per triangle. Keeps a reference to the mesh.
     Projection(const Mesh& high, NormalSource normals);
 
-    /// Looks inward from `reach` (scene units) in front of each point to `reach` behind it, for the first face that
-    /// looks outward. Cost: about 0.5 µs per point.
-    std::vector<ProjectedTo> project(std::span<const ProjectedFrom> points, double reach) const;
+    /// Looks inward from in front of each point to `behind` (scene units) behind it, for the first face that looks
+    /// outward. Cost: about 0.5 µs per point.
+    std::vector<ProjectedTo> project(std::span<const ProjectedFrom> points, double behind) const;
     /// Five times the distance within which 95 % of the points have the surface, in front or behind, among those that
     /// have it within a tenth of its diagonal.
     double reach_for(std::span<const ProjectedFrom> points) const;
     double diagonal() const { return frame_.diagonal; }
 
   private:
-    void project_block(std::span<const ProjectedFrom> points, double reach, const Vec2& shift,
+    void project_block(std::span<const ProjectedFrom> points, double behind, const Vec2& shift,
                        std::span<ProjectedTo> to) const; // those without a hit
 
     const Mesh& mesh_;

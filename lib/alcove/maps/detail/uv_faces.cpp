@@ -2,6 +2,7 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/detail/corner_normals.h"
+#include "alcove/mesh/detail/source.h"
 #include "alcove/mesh/triangulate.h"
 
 #include <fmt/format.h>
@@ -37,19 +38,30 @@ struct UvBox {
 
 }
 
-UvFaces::UvFaces(const Mesh& mesh, NormalSource source) : mesh_(mesh) {
-    if (mesh.vertex_uvs.empty() && mesh.corner_uvs.empty())
+UvFaces::UvFaces(const Mesh& mesh, const UvFacesOptions& options) : mesh_(mesh) {
+    const bool has_uvs = !mesh.vertex_uvs.empty() || !mesh.corner_uvs.empty();
+    std::vector<Vec2> other_set;
+    if (options.uv_set > 0) {
+        const std::size_t sets = mesh.source ? mesh.source->uv_sets() : has_uvs ? 1 : 0;
+        if (static_cast<std::size_t>(options.uv_set) >= sets)
+            throw InputError(fmt::format("{}--uv-set {}: {}, counted from 0", mesh.name.empty() ? "" : mesh.name + ": ",
+                                         options.uv_set, counted(sets, "set of UVs exists", "sets of UVs exist")));
+        other_set = mesh.source->uv_set(static_cast<std::size_t>(options.uv_set));
+    } else if (!has_uvs)
         throw InputError((mesh.name.empty() ? "" : mesh.name + ": ") +
                          "has no texture coordinates (UVs), which a texture map needs: unwrap it first, or bake to "
                          "vertices (-o OUT.ply), with --tessellate auto where faces are large");
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const std::vector<Triangle> corners = corners_of_triangles(mesh);
     const std::vector<std::uint32_t> faces = faces_of_triangles(mesh);
-    const std::vector<std::array<Vec3, 3>> normals = corner_normals(mesh, triangles, source);
+    const std::vector<std::array<Vec3, 3>> normals = corner_normals(mesh, triangles, options.normals);
+    const std::vector<Vec2>& of_vertices = options.uv_set > 0 ? other_set : mesh.vertex_uvs;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (!options.wanted.empty() && !options.wanted[faces[t]])
+            continue;
         UvTriangle uvs;
         for (std::size_t k = 0; k < 3; ++k)
-            uvs[k] = mesh.corner_uvs.empty() ? mesh.vertex_uvs[triangles[t][k]] : mesh.corner_uvs[corners[t][k]];
+            uvs[k] = of_vertices.empty() ? mesh.corner_uvs[corners[t][k]] : of_vertices[triangles[t][k]];
         if (!is_usable(uvs)) {
             ++unusable_;
         } else if (!(area_of(uvs) > 0.0)) {
@@ -78,15 +90,28 @@ void UvFaces::add_directions() {
     vertex_normals_ = angle_weighted_normals(mesh_, triangulate(mesh_).triangles);
 }
 
-ProjectedFrom UvFaces::projected_from(std::uint32_t triangle, const Vec3d& weights) const {
+void UvFaces::set_cage(const Mesh& cage) {
+    if (cage.vertex_count() != mesh_.vertex_count())
+        throw InputError(
+            fmt::format("{}the cage has {}, but the mesh has {}: make the cage from a copy of the mesh, by "
+                        "moving its vertices",
+                        cage.name.empty() ? "" : cage.name + ": ", counted(cage.vertex_count(), "vertex", "vertices"),
+                        grouped(mesh_.vertex_count())));
+    cage_ = &cage;
+}
+
+ProjectedFrom UvFaces::projected_from(std::uint32_t triangle, const Vec3d& weights, double front) const {
     ProjectedFrom from;
     Vec3d direction(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
         const double weight = weights[static_cast<int>(k)];
-        from.position += weight * mesh_.positions[vertices_[triangle][k]];
-        direction += weight * Vec3d(vertex_normals_[vertices_[triangle][k]]);
+        const std::uint32_t vertex = vertices_[triangle][k];
+        from.position += weight * mesh_.positions[vertex];
+        direction +=
+            weight * (cage_ ? cage_->positions[vertex] - mesh_.positions[vertex] : Vec3d(vertex_normals_[vertex]));
     }
     from.direction = unit_or_zero(direction);
+    from.front = cage_ ? glm::length(direction) : front;
     return from;
 }
 

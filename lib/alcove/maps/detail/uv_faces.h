@@ -17,18 +17,27 @@ namespace alcove {
 /// The UDIM tile whose lower left corner is u, v has the number 1001 + u + 10 v.
 inline constexpr int first_udim = 1001, udims_per_row = 10;
 
+struct UvFacesOptions {
+    NormalSource normals = NormalSource::automatic;
+    int uv_set = 0;
+    std::span<const std::uint8_t> wanted{}; ///< empty, or 1 for each face to take
+};
+
 /// The triangles with usable UVs. Const use is thread-safe.
 class UvFaces {
   public:
-    /// \throw InputError if the mesh has no UVs.
-    UvFaces(const Mesh& mesh, NormalSource normals);
+    /// \throw InputError if the mesh does not have the set of UVs.
+    UvFaces(const Mesh& mesh, const UvFacesOptions& options);
 
     std::span<const UvTriangle> uvs() const { return uvs_; }
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what projected_from() needs.
     void add_directions();
-    /// The point, and the mean of the normals around its vertices: without gaps at hard edges.
-    ProjectedFrom projected_from(std::uint32_t triangle, const Vec3d& weights) const;
+    /// The point, to be looked at from `front` before it along the mean of the normals around its vertices, which has no
+    /// gaps at hard edges; or from the cage, if there is one.
+    ProjectedFrom projected_from(std::uint32_t triangle, const Vec3d& weights, double front) const;
+    /// A mesh with the vertices of this one, moved outward. \throw InputError if it has another number of vertices.
+    void set_cage(const Mesh& cage);
     /// Computes what to_tangent() needs.
     void add_tangents();
     /// A direction in the frame that shaders interpolate between the corners. Zero if that has no area.
@@ -46,6 +55,7 @@ class UvFaces {
     std::vector<std::array<Vec3, 3>> normals_;
     std::vector<TangentTriangle> tangents_;
     std::vector<Vec3> vertex_normals_;
+    const Mesh* cage_ = nullptr;
     std::size_t unusable_ = 0, flat_ = 0; // triangles with UVs that are not finite or far away, or without area
 };
 

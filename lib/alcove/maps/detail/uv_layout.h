@@ -1,0 +1,23 @@
+/// Bakes several UV layouts of one mesh at once, so that they share its grids.
+#pragma once
+
+#include "alcove/maps/maps.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// Faces that share a texture.
+struct UvLayout {
+    int uv_set = 0;
+    std::vector<std::uint8_t> wanted; ///< empty, or 1 for each face that belongs to it
+};
+
+/// bake_maps() with the tiles of one layout after those of another; one tile each without UDIM. The uv_set of the options
+/// has no effect.
+BakedMaps bake_layouts(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options,
+                       std::span<const UvLayout> layouts);
+
+}

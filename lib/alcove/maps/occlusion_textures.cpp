@@ -1,0 +1,150 @@
+#include "alcove/bake/detail/selection.h"
+#include "alcove/base/detail/messages.h"
+#include "alcove/maps/detail/rasterize.h"
+#include "alcove/maps/detail/uv_faces.h"
+#include "alcove/maps/detail/uv_layout.h"
+#include "alcove/maps/maps.h"
+#include "alcove/mesh/formats/gltf/gltf_document.h"
+#include "alcove/mesh/formats/gltf/gltf_write.h"
+#include "alcove/render/detail/png_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace alcove {
+namespace {
+
+/// The faces of each material. Of a mesh with several instances, those of the first one.
+class MaterialFaces {
+  public:
+    MaterialFaces(const Mesh& mesh, const GltfDocument* document, const FaceSelection& selection) {
+        std::vector<std::uint8_t> baked(mesh.face_count(), 1);
+        if (!selection.empty())
+            baked = select_faces(mesh, selection).baked;
+        if (document == nullptr) {
+            faces_[{}] = std::move(baked);
+            return;
+        }
+        std::map<std::size_t, std::size_t> first; // placement of each mesh
+        for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+            const std::size_t begin = mesh.groups[g].first_face,
+                              end = g + 1 < mesh.groups.size() ? mesh.groups[g + 1].first_face : mesh.face_count();
+            if (!baked[begin])
+                continue;
+            const auto& [placement, material] = document->group_primitives[g];
+            if (first.try_emplace(document->placements[placement].mesh, placement).first->second != placement) {
+                others_.insert(placement);
+                continue;
+            }
+            std::vector<std::uint8_t>& own = faces_[material];
+            own.resize(mesh.face_count(), 0);
+            std::fill(own.begin() + static_cast<std::ptrdiff_t>(begin), own.begin() + static_cast<std::ptrdiff_t>(end),
+                      1);
+        }
+    }
+
+    const std::map<std::optional<std::size_t>, std::vector<std::uint8_t>>& faces() const { return faces_; }
+    std::size_t other_instances() const { return others_.size(); }
+
+  private:
+    std::map<std::optional<std::size_t>, std::vector<std::uint8_t>> faces_;
+    std::set<std::size_t> others_;
+};
+
+/// Whether every face of a layout has texels of its own: rasterized, at most a thousandth of the texels overlap, and all
+/// UVs lie in the texture.
+bool is_unwrapped(const Mesh& mesh, const UvLayout& layout, const MapOptions& options) {
+    constexpr float rounding = 1e-3f;
+    const UvFaces faces(mesh, {NormalSource::automatic, layout.uv_set, layout.wanted});
+    for (const UvTriangle& uvs : faces.uvs())
+        for (const Vec2& uv : uvs)
+            if (std::max(std::fabs(uv.x - 0.5f), std::fabs(uv.y - 0.5f)) > 0.5f + rounding)
+                return false;
+    const TexelOwners owners = rasterize(faces.uvs(), {options.width, options.height});
+    const auto covered = owners.size() - static_cast<std::size_t>(
+                                             std::count(owners.triangles.begin(), owners.triangles.end(), no_triangle));
+    constexpr double most = 1e-3;
+    return covered > 0 && static_cast<double>(owners.overlaps) <= most * static_cast<double>(covered);
+}
+
+/// The names of the meshes of those faces, for a message.
+std::string names_of_meshes(const Mesh& mesh, const GltfDocument* document, const std::vector<std::uint8_t>& wanted) {
+    std::set<std::string> names;
+    if (document != nullptr)
+        for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+            if (wanted[mesh.groups[g].first_face]) {
+                const std::size_t number = document->placements[document->group_primitives[g].placement].mesh;
+                names.insert(
+                    in_quotes(document->file->root()["meshes"][number].text_or("name", fmt::format("{}", number))));
+            }
+    constexpr std::size_t most = 5;
+    if (names.empty())
+        return "the mesh";
+    const std::size_t more = names.size() > most ? names.size() - most : 0;
+    while (names.size() > most)
+        names.erase(std::prev(names.end()));
+    return fmt::format("{} {}{}", names.size() + more == 1 ? "mesh" : "meshes", fmt::join(names, ", "),
+                       more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+}
+
+OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options) {
+    check(options);
+    const auto* document = dynamic_cast<const GltfDocument*>(mesh.source.get());
+    const int sets = document ? static_cast<int>(document->uv_sets()) : 1;
+    OcclusionTextures result;
+    std::vector<UvLayout> layouts;
+    const MaterialFaces materials(mesh, document, bake.faces);
+    for (const auto& [material, faces] : materials.faces()) {
+        UvLayout layout{0, faces};
+        while (layout.uv_set < sets && !is_unwrapped(mesh, layout, options))
+            ++layout.uv_set;
+        if (layout.uv_set == sets)
+            throw InputError(fmt::format(
+                "{}{} {} no set of UVs without overlaps inside the texture, which an occlusion texture needs: unwrap "
+                "it, bake it to vertices (--into vertices), or leave it out (--exclude)",
+                mesh.name.empty() ? "" : mesh.name + ": ", names_of_meshes(mesh, document, faces),
+                names_of_meshes(mesh, document, faces).starts_with("meshes") ? "have" : "has"));
+        result.textures.push_back({material, layout.uv_set});
+        layouts.push_back(std::move(layout));
+    }
+    BakeOptions ao = bake;
+    ao.attributes = Channel::ao;
+    MapOptions plain;
+    plain.width = options.width;
+    plain.height = options.height;
+    plain.subsamples = options.subsamples;
+    plain.margin = options.margin;
+    result.maps = bake_layouts(mesh, ao, plain, layouts);
+    if (materials.other_instances() > 0)
+        result.maps.baked.warnings.push_back(
+            fmt::format("{} the texture of the first instance of the same mesh: bake to vertices to give each its own "
+                        "values",
+                        counted(materials.other_instances(), "instance shows", "instances show")));
+    return result;
+}
+
+std::vector<std::string> write_occlusion_textures(const Mesh& mesh, const OcclusionTextures& textures,
+                                                  const std::filesystem::path& file) {
+    if (file.extension() != ".glb" && file.extension() != ".gltf")
+        throw InputError(file.string() + ": textures are written into a .glb or .gltf: use one of these extensions");
+    std::vector<GltfTexture> images;
+    for (std::size_t i = 0; i < textures.textures.size(); ++i) {
+        const std::vector<float>& ao = textures.maps.tiles[i].layers.front().values;
+        std::vector<std::uint16_t> bytes(ao.size());
+        std::transform(ao.begin(), ao.end(), bytes.begin(), [](float value) {
+            return static_cast<std::uint16_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+        });
+        images.push_back({textures.textures[i].material, textures.textures[i].uv_set,
+                          encode_png_file(textures.maps.width, textures.maps.height, 1, 8, bytes)});
+    }
+    return write_gltf(mesh, file, images);
+}
+
+}
