@@ -76,8 +76,9 @@ void check_usage(const BakeVerb& verb) {
         check_grid_output(verb.write_grid);
     if (verb.strict && !verb.bake.method.empty() && !verb.bake.error)
         throw UsageError("--strict needs an --error for the --method to meet");
-    if (verb.add.color == ColorUse::ao && !verb.bake.attributes.has(Channel::ao))
-        throw UsageError("--color ao needs ao among the --attributes");
+    if ((verb.add.color == ColorUse::ao || verb.add.color == ColorUse::multiply) &&
+        !verb.bake.attributes.has(Channel::ao))
+        throw UsageError("--color ao and --color multiply need ao among the --attributes");
     BakeOptions options = verb.bake;
     const GridStack any;
     if (meshed || !verb.grid.empty())
@@ -87,19 +88,30 @@ void check_usage(const BakeVerb& verb) {
     as_usage([&] { check(options); });
 }
 
-void check_map_usage(const BakeVerb& verb, const std::string& output) {
+/// Refuses options for values at vertices.
+void check_at_vertices(const BakeVerb& verb, const std::string& output, std::string_view instead) {
     const auto refuse = [&](bool given, std::string_view option) {
         if (given)
-            throw UsageError(fmt::format("{} is for values at vertices: {} is a texture map", option, output));
+            throw UsageError(fmt::format("{} is for values at vertices, but {}: {}", option, instead, output));
     };
     refuse(!verb.tessellate.empty(), "--tessellate");
     refuse(verb.bake.self, "--self");
     refuse(verb.bake.weld.has_value(), "--weld");
     refuse(verb.add.color != ColorUse::automatic, "--color");
     refuse(!verb.write_grid.empty(), "--write-grid");
+}
+
+void check_map_usage(const BakeVerb& verb, const std::string& output) {
+    check_at_vertices(verb, output, "the output is a texture map");
+    if (!verb.bake.faces.empty() && !verb.map.high.empty())
+        throw UsageError(
+            "--only, --exclude, --no-occlude and --opaque-only choose parts of the input, but --high bakes "
+            "other meshes: leave out one of them");
     as_usage([&] {
         MapOptions map = verb.map.map;
         map.high.resize(verb.map.high.size()); // read later
+        if (!verb.map.cage.empty())
+            map.cage.emplace();
         check(map);
         check(verb.map.files, output);
         if (!verb.map.miss_mask.empty())
@@ -108,13 +120,31 @@ void check_map_usage(const BakeVerb& verb, const std::string& output) {
     const AtomicFile probe(output); // to find out early
 }
 
+bool is_gltf(const std::string& output) {
+    return extension(output) == ".glb" || extension(output) == ".gltf";
+}
+
+/// Checks the options of occlusion textures.
+void check_texture_usage(const BakeVerb& verb, const std::string& output) {
+    if (!is_gltf(output))
+        throw UsageError(fmt::format("--into texture is for .glb and .gltf: {} is neither", output));
+    if (verb.map.given_beyond_size() || !(verb.bake.attributes == Channel::ao))
+        throw UsageError("--into texture writes ao as a plain texture: of the options for maps, it takes --size, "
+                         "--subsamples and --margin, and no --attributes");
+    check_at_vertices(verb, output, "an occlusion texture is written");
+    as_usage([&] { check(verb.map.map); });
+    can_write_mesh(output); // to find out early
+}
+
 void check_format(const BakeVerb& verb, const std::string& output) {
+    if (verb.map.into_texture)
+        return check_texture_usage(verb, output);
     if (is_map(output))
         return check_map_usage(verb, output);
     if (verb.map.given())
         throw UsageError(
-            "--size, --subsamples, --margin, --depth, --space, --flip-green, --high, --reach, --miss-mask, "
-            "--pack, and the attributes of a high mesh are for texture maps: write a .png or .exr");
+            "--size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage, "
+            "--miss-mask, --pack, and the attributes of a high mesh are for texture maps: write a .png or .exr");
     const ChannelSet others = verb.bake.attributes.without(Channel::ao);
     if (extension(output) == ".obj" && !others.empty())
         throw UsageError(output + ": an .obj can store only ao, as colours: write a .ply for " + names_of(others));
@@ -122,8 +152,8 @@ void check_format(const BakeVerb& verb, const std::string& output) {
         throw UsageError(output + ": an .obj can store ao only as colours: leave out --color none, or write a .ply");
     if (!can_write_mesh(output))
         throw UsageError(output +
-                         ": meshes are written as .ply or .obj, texture maps as .png or .exr: use one of these "
-                         "extensions");
+                         ": meshes are written as .ply, .obj, .glb or .gltf, texture maps as .png or .exr: use one of "
+                         "these extensions");
 }
 
 std::string rmse_text(const Baked& baked) {
@@ -160,8 +190,14 @@ class BakeJob {
         read(options);
         seconds_["read"] = watch.lap();
         std::optional<BakedMaps> maps;
-        if (is_map(file_.output))
+        std::vector<OcclusionTextures::Texture> textures;
+        if (verb_.map.into_texture) {
+            OcclusionTextures baked = bake_occlusion_textures(mesh_, options, verb_.map.map);
+            textures = std::move(baked.textures);
+            maps = std::move(baked.maps);
+        } else if (is_map(file_.output)) {
             maps = bake_maps(mesh_, options, map_options());
+        }
         const Baked baked = maps ? std::move(maps->baked) : bake(mesh_, options);
         seconds_["grid"] = baked.seconds.grid;
         seconds_["occlusion"] = baked.seconds.occlusion;
@@ -171,12 +207,16 @@ class BakeJob {
                 fmt::format("{}: misses the error target of {:g}: the measured RMSE is {:.2g}, and nothing is written",
                             file_.input, *baked.target, *baked.rmse));
         watch.lap();
-        if (maps) {
+        if (verb_.map.into_texture) {
+            for (std::string& message : write_occlusion_textures(mesh_, {textures, *maps}, file_.output))
+                warnings_.push_back(std::move(message));
+        } else if (maps) {
             write_maps(*maps, file_.output, verb_.map.files);
             if (!verb_.map.miss_mask.empty())
                 write_miss_mask(*maps, verb_.map.miss_mask);
-        } else
+        } else {
             write(baked);
+        }
         seconds_["write"] = watch.lap();
         warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
         warnings_.insert(warnings_.begin(), mesh_.warnings.begin(), mesh_.warnings.end());
@@ -192,10 +232,12 @@ class BakeJob {
         MapOptions options = verb_.map.map;
         options.udim = file_.output.find("<UDIM>") != std::string::npos;
         for (const std::string& high : verb_.map.high) {
-            options.high.push_back(is_grid(high) ? surface_of(read_grids(high), high) : read_mesh(high));
+            options.high.push_back(is_grid(high) ? surface_of(read_grids(high), high) : with_surface(read_mesh(high)));
             for (const std::string& warning : options.high.back().warnings)
                 print_warnings({fmt::format("{}: {}", high, warning)}, verb_.common);
         }
+        if (!verb_.map.cage.empty())
+            options.cage = read_mesh(verb_.map.cage);
         return options;
     }
 
@@ -317,12 +359,13 @@ void run(BakeVerb& verb) {
 
 void add_files(CLI::App& app, BakeVerb& verb) {
     app.add_option("input", verb.inputs,
-                   "Meshes to bake (ply, obj, off, stl), or level sets (vdb), whose zero isosurface is meshed first")
+                   "Meshes to bake (ply, obj, off, stl, glb, gltf), points with normals (ply), or level sets (vdb), "
+                   "whose zero isosurface is meshed first")
         ->required();
-    app.add_option(
-           "-o,--output", verb.output,
-           "Mesh to write (ply, obj), texture map (png, exr), or a folder that gets one mesh per input. <UDIM> in "
-           "the name of a map: one file per tile")
+    app.add_option("-o,--output", verb.output,
+                   "Mesh to write (ply, obj, glb, gltf), texture map (png, exr), or a folder that gets one mesh per "
+                   "input. <UDIM> in "
+                   "the name of a map: one file per tile")
         ->required();
 }
 
@@ -383,6 +426,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);
+    add_point_size(app, verb.bake.point_size);
     app.add_option("--tessellate", verb.tessellate,
                    "Split faces first, so that ao can vary across them. LEN: split edges longer than this; auto: split "
                    "where interpolating ao between vertices would be off by more than the error target")
@@ -410,6 +454,17 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
 }
 
 void add_occluders(CLI::App& app, BakeVerb& verb) {
+    FaceSelection& faces = verb.bake.faces;
+    app.add_option("--only", faces.only,
+                   "Bake only the parts of this name; all others still occlude. NAME is that of a node, mesh or "
+                   "material (glTF), or of a group, object or material (OBJ); * and ? are wildcards. Repeat the option "
+                   "for more")
+        ->option_text("NAME");
+    app.add_option("--exclude", faces.exclude, "Neither bake the parts of this name, nor let them occlude")
+        ->option_text("NAME");
+    app.add_option("--no-occlude", faces.no_occlude, "Do not let the parts of this name occlude")->option_text("NAME");
+    app.add_flag("--opaque-only", faces.opaque_only,
+                 "Do not let parts occlude whose glTF material is masked or blended");
     app.add_flag("--self", verb.bake.self,
                  "Each connected part is occluded only by itself, by --occluder meshes and by the --ground plane");
     app.add_option("--occluder", verb.occluders,
@@ -423,13 +478,15 @@ void add_occluders(CLI::App& app, BakeVerb& verb) {
 
 void add_colors(CLI::App& app, BakeVerb& verb) {
     add_choice<ColorUse>(
-        app, "--color", verb.add.color, {{"ao", ColorUse::ao}, {"none", ColorUse::none}},
-        "ao: also write ao as vertex colours and `quality`; none: do not. Default: ao, unless the input has "
+        app, "--color", verb.add.color,
+        {{"ao", ColorUse::ao}, {"multiply", ColorUse::multiply}, {"none", ColorUse::none}},
+        "ao: also write ao as vertex colours and `quality`; multiply: multiply the vertex colours of the input by ao; "
+        "none: do neither. Default: ao, unless the input has "
         "vertex colours or its own `quality`")
         ->type_name("WHAT");
     add_choice<ColorEncoding>(app, "--color-encoding", verb.add.encoding,
                               {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}},
-                              "Encoding of the vertex colours: srgb, or raw (255 x ao)")
+                              "Encoding of the vertex colours in a ply or obj: srgb, or raw (255 x ao)")
         ->type_name("CODE")
         ->default_str("srgb");
 }
@@ -444,6 +501,7 @@ constexpr const char* examples = "Examples:\n"
                                  "  alcove bake level.obj -o level_ao.ply --tessellate auto\n"
                                  "  alcove bake kit.obj -o kit_ao.obj --self\n"
                                  "  alcove bake dragon.obj -o dragon_ao.png --size 4096\n"
+                                 "  alcove bake scene.glb -o scene_ao.glb --exclude 'Sky*' --no-occlude Glass\n"
                                  "  alcove bake level_set.vdb -o level_set_ao.ply --adaptivity 0.2\n"
                                  "  alcove bake scan.ply -o scan_ao.ply --write-grid scan.vdb\n"
                                  "  alcove bake scan.ply -o scan_ao.ply --grid scan.vdb --method classic\n";

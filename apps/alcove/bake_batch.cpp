@@ -13,8 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether meshes of this name can be written.
+bool is_mesh_output(const std::string& file) {
+    const std::string end = extension(file);
+    return end == ".ply" || end == ".obj" || end == ".glb" || end == ".gltf";
+}
+
 bool is_folder(const std::string& output) {
-    const bool is_mesh = extension(output) == ".ply" || extension(output) == ".obj";
+    const bool is_mesh = is_mesh_output(output);
     std::error_code missing;
     return output.ends_with('/') || (!is_mesh && fs::is_directory(output, missing));
 }
@@ -25,7 +31,7 @@ bool same_file(const std::string& a, const std::string& b) {
 }
 
 std::string name_in_folder(const fs::path& input, bool with_folder) {
-    const std::string kept = extension(input.string()) == ".obj" ? input.extension().string() : ".ply";
+    const std::string kept = is_mesh_output(input.string()) ? input.extension().string() : ".ply";
     const std::string name = input.stem().string() + kept;
     const std::string folder = fs::absolute(input).parent_path().filename().string();
     return with_folder && !folder.empty() ? folder + "_" + name : name;

@@ -158,7 +158,8 @@ void add_info(CLI::App& program) {
     auto* verb =
         program.add_subcommand("info", "Describe the contents of a mesh, grid or image; meshes are also diagnosed");
     auto options = std::make_shared<Options>();
-    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl), grid (vdb) or image (exr, png)")->required();
+    verb->add_option("file", options->input, "Mesh (ply, obj, off, stl, glb, gltf), grid (vdb) or image (exr, png)")
+        ->required();
     add_weld_option(*verb, options->weld);
     add_common_options(*verb, options->common);
     verb->footer("Example: alcove info model.ply");

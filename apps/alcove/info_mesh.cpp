@@ -26,7 +26,9 @@ void add_faces(Facts& facts, const Diagnosis& diagnosis) {
     for (int kind = 0; kind < 3; ++kind)
         if (counts[kind] > 0)
             kinds.push_back(counted(counts[kind], names[kind][0], names[kind][1]));
-    facts.add("faces", diagnosis.faces, fmt::format("{}: {}", grouped(diagnosis.faces), fmt::join(kinds, ", ")));
+    facts.add("faces", diagnosis.faces,
+              kinds.empty() ? grouped(diagnosis.faces)
+                            : fmt::format("{}: {}", grouped(diagnosis.faces), fmt::join(kinds, ", ")));
     facts.add("triangles", diagnosis.triangles);
     facts.add("quads", diagnosis.quads);
     facts.add("larger_polygons", diagnosis.larger_polygons);
@@ -119,6 +121,8 @@ void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
 /// As a bake decides it.
 void add_sign(Facts& facts, const Mesh& mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
+    if (mesh.face_count() == 0)
+        return facts.add("sign", nullptr, "none: these are points, whose surface a bake reconstructs");
     if (triangles.empty())
         return facts.add("sign", nullptr, "none: there is nothing to bake");
     try {

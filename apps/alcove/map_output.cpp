@@ -89,9 +89,13 @@ EnumSet<MapAttribute> take_surface_attributes(std::string& names) {
 }
 
 bool MapRequest::given() const {
-    return sized || !high.empty() || map.reach || !miss_mask.empty() || !map.surface.empty() ||
-           files.depth != MapDepth::automatic || map.space != MapSpace::tangent || map.flip_green ||
-           !files.pack.empty();
+    return sized || given_beyond_size();
+}
+
+bool MapRequest::given_beyond_size() const {
+    return !high.empty() || !cage.empty() || map.uv_set != 0 || map.reach || !miss_mask.empty() ||
+           !map.surface.empty() || files.depth != MapDepth::automatic || map.space != MapSpace::tangent ||
+           map.flip_green || !files.pack.empty();
 }
 
 bool is_map(const std::string& output) {
@@ -99,6 +103,12 @@ bool is_map(const std::string& output) {
 }
 
 void add_map_options(CLI::App& verb, MapRequest& request) {
+    add_choice<bool>(
+        verb, "--into", request.into_texture, {{"vertices", false}, {"texture", true}},
+        "Where a glb or gltf gets the values: at its vertices, or as an occlusion texture for each material, "
+        "on a set of UVs without overlaps")
+        ->type_name("WHERE")
+        ->default_str("vertices");
     verb.add_option_function<std::string>(
             "--size",
             [&request](const std::string& text) {
@@ -144,6 +154,14 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
             "High-poly mesh or level set whose surface is baked into the UVs of the input; repeat the option for "
             "more")
         ->option_text("MESH");
+    verb.add_option("--uv-set", request.map.uv_set, "Set of UVs of a glTF file, counted from 0")
+        ->check(CLI::NonNegativeNumber.description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    verb.add_option("--cage", request.cage,
+                    "A copy of the input with its vertices moved outward: texels look for the high mesh from there, "
+                    "instead of along the normals")
+        ->type_name("MESH");
     verb.add_option_function<std::string>(
             "--reach",
             [&request](const std::string& text) {

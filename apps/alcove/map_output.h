@@ -11,16 +11,19 @@ struct MapRequest {
     MapOptions map;
     MapFileOptions files;
     std::vector<std::string> high{};
-    std::string miss_mask{};
-    bool sized = false; ///< whether --size, --subsamples or --margin was used
+    std::string cage{}, miss_mask{};
+    bool into_texture = false; ///< occlusion textures in a glTF file, not a map
+    bool sized = false;        ///< whether --size, --subsamples or --margin was used
 
-    bool given() const; ///< whether any option for maps was used
+    bool given() const;             ///< whether any option for maps was used
+    bool given_beyond_size() const; ///< besides --size, --subsamples and --margin
 };
 
 /// Whether the name of an output ends in .png or .exr.
 bool is_map(const std::string& output);
 
-/// Adds --size, --subsamples, --margin, --depth, --space, --flip-green, --high, --reach, --miss-mask and --pack.
+/// Adds --into, --size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage, --miss-mask and
+/// --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
 /// \throw InputError if the mask of misses is not a .png, would replace a map or lacks the tiles of the output, or if

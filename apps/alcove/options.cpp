@@ -167,6 +167,23 @@ void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& 
         ->default_str("auto");
 }
 
+void add_point_size(CLI::App& verb, std::optional<Length>& size) {
+    constexpr const char* forms = "auto, 0.2 (scene units) or 0.1% (of the diagonal)";
+    verb.add_option_function<std::string>(
+            "--point-size",
+            [&size](const std::string& text) {
+                if (text != "auto")
+                    size = length_without_vx(text, forms);
+            },
+            "Of points without faces: the distance between neighbours. Holes up to twice as large are closed")
+        ->check(parsable([](const std::string& text) {
+            if (text != "auto")
+                length_without_vx(text, forms);
+        }))
+        ->type_name("LEN")
+        ->default_str("auto");
+}
+
 void add_grid_names(CLI::App& verb, std::vector<std::string>& names) {
     verb.add_option("--grid-name", names,
                     "Use the level set of this name from the .vdb; repeat the option to unite several. "

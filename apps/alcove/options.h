@@ -91,6 +91,9 @@ void add_radius_option(CLI::App& verb, Length& radius, const std::string& descri
 /// Adds --voxel (empty: auto) and --sign.
 void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign);
 
+/// Adds --point-size (empty: auto).
+void add_point_size(CLI::App& verb, std::optional<Length>& size);
+
 /// Adds --grid-name.
 void add_grid_names(CLI::App& verb, std::vector<std::string>& names);
 

@@ -77,7 +77,8 @@ void choose_occlusion(const SceneRequest& request, SceneOcclusion& occlusion) {
 }
 
 void add_scene_options(CLI::App& verb, SceneRequest& request) {
-    verb.add_option("input", request.input, "Scene (toml), mesh (ply, obj, off, stl) or level set (vdb) to draw")
+    verb.add_option("input", request.input,
+                    "Scene (toml), mesh (ply, obj, off, stl, glb, gltf) or level set (vdb) to draw")
         ->required();
     verb.add_option("--size", request.size, "Image size in pixels")->type_name("WxH")->default_str("1280x720");
     verb.add_option("--pixel-samples", request.pixel_samples, "Rays per pixel")

@@ -24,7 +24,7 @@ constexpr const char* lattice_forms = "0.1 (scene units) or a .vdb file";
 struct VoxelizeVerb {
     CommonOptions common;
     Length radius = "10%";
-    std::optional<Length> voxel, weld;
+    std::optional<Length> voxel, weld, point_size;
     std::string lattice; ///< a length or a grid; empty: none
     VoxelizeOptions voxelizing;
     std::string input, output;
@@ -71,7 +71,9 @@ void run(const VoxelizeVerb& verb) {
     const std::optional<Lattice> lattice = lattice_of(verb.lattice);
     nlohmann::ordered_json seconds;
     Stopwatch watch;
-    const Mesh mesh = read_welded(verb.input, verb.weld);
+    Mesh file = read_welded(verb.input, verb.weld);
+    const bool is_cloud = file.face_count() == 0;
+    const Mesh mesh = with_surface(std::move(file), {verb.point_size});
     seconds["read"] = watch.lap();
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const GridStack stack = voxelized(verb, mesh, triangles, lattice);
@@ -80,7 +82,7 @@ void run(const VoxelizeVerb& verb) {
     seconds["write"] = watch.lap();
 
     std::vector<std::string> warnings = mesh.warnings;
-    if (const Gaps gaps = find_gaps(mesh, triangles); gaps.closable > 0)
+    if (const Gaps gaps = find_gaps(mesh, triangles); !is_cloud && gaps.closable > 0)
         warnings.push_back(gaps.advice());
     warnings.insert(warnings.end(), stack.warnings.begin(), stack.warnings.end());
     print_warnings(warnings, verb.common);
@@ -125,7 +127,8 @@ void run(const VoxelizeVerb& verb) {
 void add_voxelize(CLI::App& program) {
     auto* app = program.add_subcommand("voxelize", "Turn a mesh into narrow-band level sets");
     auto verb = std::make_shared<VoxelizeVerb>();
-    app->add_option("input", verb->input, "Mesh (ply, obj, off, stl)")->required();
+    app->add_option("input", verb->input, "Mesh (ply, obj, off, stl, glb, gltf), or points with normals (ply)")
+        ->required();
     app->add_option("-o,--output", verb->output, "Grid to write (vdb)")->required();
     add_radius_option(*app, verb->radius,
                       "Maximum distance to store; levels are added, each with twice the voxel size of the one before, "
@@ -147,6 +150,7 @@ void add_voxelize(CLI::App& program) {
         ->type_name("N")
         ->capture_default_str();
     add_weld_option(*app, verb->weld);
+    add_point_size(*app, verb->point_size);
     add_common_options(*app, verb->common);
     app->footer("Examples:\n"
                 "  alcove voxelize scan.ply -o scan.vdb --voxel 0.2% --radius 20%\n"

@@ -24,14 +24,9 @@ const std::vector<Damage>& damages() {
         {"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", {"index.off", "line 6"}},
         {"word.obj", "v 0 0 0\nv 1 0 x\nv 0 1 0\nf 1 2 3\n", {"word.obj", "line 2"}},
         {"cut.stl", binary_stl_cut_short(), {"cut.stl"}},
-        {"points.ply",
-         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float "
-         "z\nend_header\n"
-         "0 0 0\n1 1 1\n",
-         {"points.ply", "line 7", "2 points", "no faces"}},
         {"points.obj", "v 0 0 0\nv 1 0 0\n", {"points.obj", "no faces"}},
         {"empty.off", "", {"empty.off", "empty"}},
-        {"prose.txt", "It was a dark and stormy night.\n", {"prose.txt", "PLY, OBJ, OFF and STL"}},
+        {"prose.txt", "It was a dark and stormy night.\n", {"prose.txt", "PLY, OBJ, OFF, STL and glTF"}},
     };
     return all;
 }
@@ -47,6 +42,16 @@ TEST_F(Inputs, DamagedOnesAreRefusedByNameAndPlace) {
         expect_refusal({"info", damage.name, "--json"}, bad_input, damage.message_parts);
     }
     EXPECT_EQ(files().size(), damages().size());
+}
+
+TEST_F(Inputs, TooFewPointsAreRefused) {
+    write("points.ply",
+          "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+          "end_header\n0 0 0\n1 1 1\n");
+    expect_refusal({"bake", "points.ply", "-o", "b.ply"}, bad_input,
+                   {"points.ply", "fewer than three different points"});
+    expect_refusal({"voxelize", "points.ply", "-o", "b.vdb"}, bad_input, {"points.ply", "fewer than three"});
+    EXPECT_EQ(run({"info", "points.ply"}).code, done);
 }
 
 TEST_F(Inputs, MissingOnesAndFoldersAreRefused) {

@@ -144,7 +144,7 @@ TEST_F(Program, RefusesBadNumbersAndWordsBeforeItReadsAnything) {
 
 TEST_F(Program, RefusesAnUnknownOutputBeforeItReadsAnything) {
     for (const char* name : {"b.jpg", "b.off", "b.stl", "b", "b.ply.bak"})
-        expect_refusal({"bake", "none.ply", "-o", name}, usage, {name, ".ply or .obj"});
+        expect_refusal({"bake", "none.ply", "-o", name}, usage, {name, ".ply, .obj, .glb or .gltf"});
     expect_refusal({"voxelize", "none.ply", "-o", "b.ply"}, usage, {"b.ply", ".vdb"});
     expect_refusal({"render", "none.ply", "-o", "b.jpg"}, usage, {"b.jpg", ".exr or .png"});
     EXPECT_TRUE(files().empty());
