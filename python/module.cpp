@@ -1,0 +1,253 @@
+// bake() and add(), the exceptions, and the module itself.
+#include "arrays.h"
+#include "bindings.h"
+
+#include "alcove/bake/bake.h"
+#include "alcove/vdb/vdb_file.h"
+
+#include <fmt/format.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+
+namespace alcove::python {
+namespace {
+
+ChannelSet channels_named(const std::vector<std::string>& names) {
+    ChannelSet set;
+    for (const std::string& name : names) {
+        std::string known;
+        bool found = false;
+        for (const ChannelInfo& channel : channels) {
+            known += (known.empty() ? "" : ", ") + std::string(channel.name);
+            if (channel.name == name) {
+                set = set | channel.channel;
+                found = true;
+            }
+        }
+        if (!found)
+            throw InputError(fmt::format("attributes: takes {}, not '{}'", known, name));
+    }
+    return set;
+}
+
+template <class T>
+T word(const std::string& text, const std::vector<std::pair<std::string, T>>& choices, const char* argument) {
+    std::string known;
+    for (const auto& [name, value] : choices) {
+        if (name == text)
+            return value;
+        known += (known.empty() ? "" : ", ") + name;
+    }
+    throw InputError(fmt::format("{}: takes {}, not '{}'", argument, known, text));
+}
+
+/// Reports progress, and lets Ctrl-C end the bake.
+BakeProgress progress_for(const py::object& callback) {
+    // Shared, so that copies of the function need no GIL.
+    return [kept = std::make_shared<py::object>(callback)](std::string_view work, double done) {
+        const py::gil_scoped_acquire acquired;
+        if (PyErr_CheckSignals() != 0)
+            throw py::error_already_set();
+        if (!kept->is_none())
+            (*kept)(std::string(work), done);
+    };
+}
+
+struct Result {
+    Baked baked;
+};
+
+py::object values_of(const py::object& self, Channel channel) {
+    const Baked& baked = self.cast<const Result&>().baked;
+    const std::vector<float>& values = baked[channel];
+    if (!baked.attributes.has(channel))
+        return py::none();
+    const auto components = static_cast<py::ssize_t>(info(channel).components);
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(values.size()) / components};
+    if (components > 1)
+        shape.push_back(components);
+    return view(values.data(), shape, self);
+}
+
+Result bake_any(const py::object& mesh_argument, const py::object& radius, const std::string& quality,
+                const std::optional<double>& error, const std::string& method, const py::dict& parameters,
+                const std::vector<std::string>& attributes, const py::list& occluders, bool ground,
+                const std::array<double, 3>& up, bool self_only, const std::string& via, const std::string& normals,
+                const std::string& sign, const py::object& voxel, const py::object& points, std::uint32_t seed,
+                unsigned threads, const py::object& progress) {
+    std::optional<Mesh> made;
+    if (!py::isinstance<Mesh>(mesh_argument))
+        made = to_mesh(mesh_argument, "mesh");
+    const Mesh& mesh = made ? *made : mesh_argument.cast<const Mesh&>();
+    BakeOptions options;
+    options.radius = length(radius, "radius");
+    options.quality = word<Quality>(
+        quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}}, "quality");
+    options.error = error;
+    options.method = method;
+    for (const auto& [name, value] : parameters)
+        options.parameters.emplace_back(name.cast<std::string>(), value.cast<double>());
+    options.attributes = channels_named(attributes);
+    for (const py::handle& occluder : occluders)
+        options.occluders.push_back(to_mesh(py::reinterpret_borrow<py::object>(occluder), "occluders"));
+    options.ground = ground;
+    options.up = {up[0], up[1], up[2]};
+    options.self = self_only;
+    options.via = word<Via>(via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}}, "via");
+    options.normals = word<NormalSource>(normals,
+                                         {{"auto", NormalSource::automatic},
+                                          {"file", NormalSource::file},
+                                          {"angle", NormalSource::angle},
+                                          {"area", NormalSource::area}},
+                                         "normals");
+    options.sign = word<SignChoice>(
+        sign, {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}}, "sign");
+    if (!voxel.is_none())
+        options.voxel = length(voxel, "voxel");
+    options.seed = seed;
+    options.threads = threads;
+    options.progress = progress_for(progress);
+    std::vector<SurfacePoint> surface_points;
+    if (!points.is_none()) {
+        if (!py::isinstance<py::tuple>(points) || py::len(points) < 2 || py::len(points) > 3)
+            throw py::type_error("points: expected (positions, normals) or (positions, normals, faces)");
+        const auto parts = points.cast<py::tuple>();
+        const auto positions = rows<double>(parts[0], 3, "points[0]");
+        const auto point_normals = rows<float>(parts[1], 3, "points[1]");
+        const auto faces = parts.size() == 3 ? indices(parts[2], mesh.face_count(), "points[2]")
+                                             : std::vector<std::uint32_t>(std::size_t(positions.shape(0)), no_face);
+        if (point_normals.shape(0) != positions.shape(0) ||
+            faces.size() != static_cast<std::size_t>(positions.shape(0)))
+            throw py::value_error("points: the arrays have different numbers of rows");
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const double* const p = positions.data() + 3 * i;
+            const float* const n = point_normals.data() + 3 * i;
+            surface_points.push_back({{p[0], p[1], p[2]}, {n[0], n[1], n[2]}, faces[i]});
+        }
+    }
+    const py::gil_scoped_release released;
+    return {points.is_none() ? bake(mesh, options) : bake(mesh, surface_points, options)};
+}
+
+void add_result(py::module_& module) {
+    py::class_<Result> result(module, "Baked", "The result of bake(). Its arrays are read-only views, without a copy.");
+    for (const ChannelInfo& channel : channels)
+        result.def_property_readonly(
+            std::string(channel.name).c_str(),
+            [id = channel.channel](const py::object& self) { return values_of(self, id); },
+            channel.components == 3 ? "(n, 3) float32, or None if it was not requested"
+                                    : "(n,) float32, or None if it was not requested");
+    result
+        .def_property_readonly(
+            "method", [](const Result& r) { return r.baked.method; }, "with its rays or samples: 'guided:3'")
+        .def_property_readonly(
+            "rmse", [](const Result& r) { return r.baked.rmse; },
+            "estimated RMSE of ao against exact rays; None if it was not measured")
+        .def_property_readonly(
+            "radius", [](const Result& r) { return r.baked.radius; }, "in scene units")
+        .def_property_readonly(
+            "warnings", [](const Result& r) { return r.baked.warnings; }, "one line each, with a fix")
+        .def_property_readonly(
+            "seconds",
+            [](const Result& r) {
+                py::dict seconds;
+                seconds["grid"] = r.baked.seconds.grid;
+                seconds["pilot"] = r.baked.seconds.pilot;
+                seconds["occlusion"] = r.baked.seconds.occlusion;
+                return seconds;
+            },
+            "wall-clock seconds of the stages: grid, pilot, occlusion")
+        .def("__repr__", [](const Result& r) {
+            return fmt::format("<alcove.Baked {} by {}{}>", names_of(r.baked.attributes), r.baked.method,
+                               r.baked.rmse ? fmt::format(", RMSE about {:.2g}", *r.baked.rmse) : "");
+        });
+}
+
+void add_exceptions(py::module_& module) {
+    // Each is also the built-in exception that callers would expect. The module and this function keep them forever.
+    const auto derived = [&](const char* name, PyObject* base, const char* doc) {
+        PyObject* const made = PyErr_NewExceptionWithDoc(fmt::format("alcove.{}", name).c_str(), doc, base, nullptr);
+        module.attr(name) = py::reinterpret_borrow<py::object>(made);
+        return made;
+    };
+    static PyObject* const input = derived("InputError", PyExc_ValueError, "An input or an option is invalid.");
+    static PyObject* const io = derived("IoError", PyExc_OSError, "A file could not be written.");
+    static PyObject* const limit = derived("LimitError", PyExc_ValueError, "A request exceeds a limit.");
+    static PyObject* const memory = derived("MemoryError", PyExc_MemoryError, "The system has too little memory.");
+    static PyObject* const time = derived("TimeLimitError", PyExc_RuntimeError, "The time limit is too short.");
+    py::register_exception_translator([](std::exception_ptr pointer) {
+        try {
+            if (pointer)
+                std::rethrow_exception(pointer);
+        } catch (const InputError& error) {
+            PyErr_SetString(input, error.what());
+        } catch (const IoError& error) {
+            PyErr_SetString(io, error.what());
+        } catch (const LimitError& error) {
+            PyErr_SetString(limit, error.what());
+        } catch (const alcove::MemoryError& error) {
+            PyErr_SetString(memory, error.what());
+        } catch (const TimeLimitError& error) {
+            PyErr_SetString(time, error.what());
+        }
+    });
+}
+
+}
+}
+
+PYBIND11_MODULE(_alcove, module) {
+    using namespace alcove;
+    using namespace alcove::python;
+    module.doc() = "Ambient occlusion on sparse signed-distance grids.";
+    module.attr("__version__") = ALCOVE_VERSION;
+    add_exceptions(module);
+    add_mesh(module);
+    add_result(module);
+    add_field(module);
+    module.def(
+        "bake", &bake_any, py::arg("mesh"), py::kw_only(), py::arg("radius") = "10%", py::arg("quality") = "good",
+        py::arg("error") = py::none(), py::arg("method") = "", py::arg("parameters") = py::dict(),
+        py::arg("attributes") = std::vector<std::string>{"ao"}, py::arg("occluders") = py::list(),
+        py::arg("ground") = false, py::arg("up") = std::array<double, 3>{0.0, 1.0, 0.0}, py::arg("self_only") = false,
+        py::arg("via") = "grid", py::arg("normals") = "auto", py::arg("sign") = "auto", py::arg("voxel") = py::none(),
+        py::arg("points") = py::none(), py::arg("seed") = 0, py::arg("threads") = 0, py::arg("progress") = py::none(),
+        R"(Bakes ambient occlusion and masks at the vertices of a mesh, or at points on it.
+
+    baked = alcove.bake(mesh, radius="10%", quality="good")
+    baked.ao          # (n,) float32: 1 open, 0 fully occluded
+
+mesh: a Mesh, or a pair (vertices, faces) of (n, 3) and (m, 3) arrays; a Mesh without faces is a set of points, which are
+    baked on their reconstructed surface.
+radius: maximum distance of occluders: scene units, "10%" of the diagonal, or "inf".
+quality: "draft", "good" or "fine": an RMSE of at most 0.05, 0.02 or 0.005; error: any other RMSE.
+method: a name from `alcove methods` instead of the planner's choice, with parameters such as {"rays": 64}.
+attributes: "ao", "convexity", "bent_normal" (n, 3), "thickness" (scene units).
+occluders: a list of meshes that also occlude. ground: a plane through the lowest vertex does; up: its direction.
+self_only: each connected part is occluded only by itself, the occluders and the ground.
+via: "grid", "auto" or "mesh": the methods that the planner may choose. normals: "auto", "file", "angle" or "area".
+sign: "auto", "solid" or "sheet". voxel: the edge of the finest voxel, a length.
+points: (positions, normals) or (positions, normals, faces): bake these points instead of the vertices.
+threads: 0 for one per core. progress: called with a text and the share that is done; what it raises ends the bake.
+
+Returns a Baked. Raises InputError, LimitError, MemoryError. The GIL is released, so several threads can bake at once.)");
+    module.def(
+        "add",
+        [](Mesh& mesh, const Result& result, const std::string& color) {
+            return add(mesh, result.baked,
+                       {.color = word<ColorUse>(color,
+                                                {{"auto", ColorUse::automatic},
+                                                 {"ao", ColorUse::ao},
+                                                 {"multiply", ColorUse::multiply},
+                                                 {"none", ColorUse::none}},
+                                                "color")});
+        },
+        py::arg("mesh"), py::arg("baked"), py::arg("color") = "auto",
+        R"(Adds baked values to the mesh, as attributes that write() stores; ao also as colours.
+
+color: "auto" (colours, unless the mesh has its own), "ao" (replaces them), "multiply" or "none".
+Returns whether colours were added.)");
+}
