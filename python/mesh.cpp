@@ -50,26 +50,31 @@ void set_faces(Mesh& mesh, const py::object& faces) {
         mesh.face_begin[f] = f * corners;
 }
 
-Mesh make_mesh(const py::object& vertices, const py::object& faces, const py::object& normals, const py::object& uvs) {
+Mesh make_mesh(const py::object& vertices, const py::object& faces, const py::object& normals, const py::object& uvs,
+               const py::object& corner_normals, const py::object& corner_uvs) {
     Mesh mesh;
     const auto positions = rows<double>(vertices, 3, "vertices");
     mesh.positions.resize(static_cast<std::size_t>(positions.shape(0)));
     if (!mesh.positions.empty())
         std::memcpy(&mesh.positions.front().x, positions.data(), mesh.positions.size() * sizeof(Vec3d));
     set_faces(mesh, faces);
-    const auto set = [&](auto& to, const py::object& from, py::ssize_t columns, const char* argument) {
+    const auto set = [&](auto& to, const py::object& from, py::ssize_t columns, const char* argument, std::size_t count,
+                         const char* what) {
         if (from.is_none())
             return;
         const auto values = rows<float>(from, columns, argument);
-        if (values.shape(0) != positions.shape(0))
-            throw py::value_error(
-                fmt::format("{}: {} rows for {} vertices", argument, values.shape(0), positions.shape(0)));
+        if (static_cast<std::size_t>(values.shape(0)) != count)
+            throw py::value_error(fmt::format("{}: {} rows for {} {}", argument, values.shape(0), count, what));
         to.resize(static_cast<std::size_t>(values.shape(0)));
         if (!to.empty())
             std::memcpy(&to.front().x, values.data(), to.size() * sizeof(to.front()));
     };
-    set(mesh.normals, normals, 3, "normals");
-    set(mesh.vertex_uvs, uvs, 2, "uvs");
+    set(mesh.normals, normals, 3, "normals", mesh.vertex_count(), "vertices");
+    set(mesh.vertex_uvs, uvs, 2, "uvs", mesh.vertex_count(), "vertices");
+    set(mesh.corner_normals, corner_normals, 3, "corner_normals", mesh.corners.size(), "corners");
+    set(mesh.corner_uvs, corner_uvs, 2, "corner_uvs", mesh.corners.size(), "corners");
+    if (!mesh.vertex_uvs.empty() && !mesh.corner_uvs.empty())
+        throw py::value_error("uvs and corner_uvs: give one of them");
     return mesh;
 }
 
@@ -99,7 +104,7 @@ Mesh to_mesh(const py::object& object, const std::string& argument) {
         return object.cast<const Mesh&>();
     if (is_pair(object)) {
         const auto pair = object.cast<py::tuple>();
-        return make_mesh(pair[0], pair[1], py::none(), py::none());
+        return make_mesh(pair[0], pair[1], py::none(), py::none(), py::none(), py::none());
     }
     throw py::type_error(argument + ": expected a Mesh, or a pair of arrays (vertices, faces)");
 }
@@ -107,13 +112,13 @@ Mesh to_mesh(const py::object& object, const std::string& argument) {
 void add_mesh(py::module_& module) {
     py::class_<Mesh>(module, "Mesh", R"(A polygon mesh, or points if it has no faces.
 
-Mesh(vertices, faces=None, normals=None, uvs=None)
+Mesh(vertices, faces=None, normals=None, uvs=None, corner_normals=None, corner_uvs=None)
 
 vertices: (n, 3) numbers, copied once as float64. faces: (m, 3) or (m, k) whole numbers, or a pair (corners, offsets) for
-polygons: face i has the vertices corners[offsets[i]:offsets[i + 1]]. normals: (n, 3). uvs: (n, 2).
+polygons: face i has the vertices corners[offsets[i]:offsets[i + 1]]. normals: (n, 3). uvs: (n, 2). corner_normals, corner_uvs: the same per corner.
 The arrays that its properties return are read-only views, without a copy.)")
         .def(py::init(&make_mesh), py::arg("vertices"), py::arg("faces") = py::none(), py::arg("normals") = py::none(),
-             py::arg("uvs") = py::none())
+             py::arg("uvs") = py::none(), py::arg("corner_normals") = py::none(), py::arg("corner_uvs") = py::none())
         .def_property_readonly(
             "vertices",
             [](const py::object& self) {

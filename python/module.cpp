@@ -3,7 +3,7 @@
 #include "bindings.h"
 
 #include "alcove/bake/bake.h"
-#include "alcove/vdb/vdb_file.h"
+#include "alcove/maps/maps.h"
 
 #include <fmt/format.h>
 #include <pybind11/functional.h>
@@ -72,64 +72,192 @@ py::object values_of(const py::object& self, Channel channel) {
     return view(values.data(), shape, self);
 }
 
+/// The options of bake() by name.
+BakeOptions options_of(const py::dict& values) {
+    BakeOptions options;
+    const auto find = [&](const char* name) -> py::object {
+        return values.contains(name) ? py::object(values[name]) : py::object();
+    };
+    const auto text = [&](const char* name) { return find(name).cast<std::string>(); };
+    for (const auto& [key, value] : values) {
+        const auto name = key.cast<std::string>();
+        if (name == "radius")
+            options.radius = length(find("radius"), "radius");
+        else if (name == "quality")
+            options.quality =
+                word<Quality>(text("quality"),
+                              {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}}, "quality");
+        else if (name == "error")
+            options.error = value.cast<std::optional<double>>();
+        else if (name == "method")
+            options.method = text("method");
+        else if (name == "parameters")
+            for (const auto& [parameter, number] : value.cast<py::dict>())
+                options.parameters.emplace_back(parameter.cast<std::string>(), number.cast<double>());
+        else if (name == "attributes")
+            options.attributes = channels_named(value.cast<std::vector<std::string>>());
+        else if (name == "occluders")
+            for (const py::handle& occluder : value)
+                options.occluders.push_back(to_mesh(py::reinterpret_borrow<py::object>(occluder), "occluders"));
+        else if (name == "ground")
+            options.ground = value.cast<bool>();
+        else if (name == "up") {
+            const auto up = value.cast<std::array<double, 3>>();
+            options.up = {up[0], up[1], up[2]};
+        } else if (name == "self_only")
+            options.self = value.cast<bool>();
+        else if (name == "via")
+            options.via =
+                word<Via>(text("via"), {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}}, "via");
+        else if (name == "normals")
+            options.normals = word<NormalSource>(text("normals"),
+                                                 {{"auto", NormalSource::automatic},
+                                                  {"file", NormalSource::file},
+                                                  {"angle", NormalSource::angle},
+                                                  {"area", NormalSource::area}},
+                                                 "normals");
+        else if (name == "sign")
+            options.sign = word<SignChoice>(
+                text("sign"),
+                {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}}, "sign");
+        else if (name == "voxel") {
+            if (!value.is_none())
+                options.voxel = length(find("voxel"), "voxel");
+        } else if (name == "seed")
+            options.seed = value.cast<std::uint32_t>();
+        else if (name == "threads")
+            options.threads = value.cast<unsigned>();
+        else if (name != "progress")
+            throw py::type_error(name + " is not an option of bake()");
+    }
+    options.progress = progress_for(values.contains("progress") ? find("progress") : py::none());
+    return options;
+}
+
+/// The mesh of an argument, made if it is a pair of arrays.
+class MeshArgument {
+  public:
+    explicit MeshArgument(const py::object& object) : object_(object) {
+        if (!py::isinstance<Mesh>(object))
+            made_ = to_mesh(object, "mesh");
+    }
+    const Mesh& get() const { return made_ ? *made_ : object_.cast<const Mesh&>(); }
+
+  private:
+    py::object object_;
+    std::optional<Mesh> made_;
+};
+
+std::vector<SurfacePoint> points_of(const py::object& points, const Mesh& mesh) {
+    if (!py::isinstance<py::tuple>(points) || py::len(points) < 2 || py::len(points) > 3)
+        throw py::type_error("points: expected (positions, normals) or (positions, normals, faces)");
+    const auto parts = points.cast<py::tuple>();
+    const auto positions = rows<double>(parts[0], 3, "points[0]");
+    const auto normals = rows<float>(parts[1], 3, "points[1]");
+    const auto faces = parts.size() == 3 ? indices(parts[2], mesh.face_count(), "points[2]")
+                                         : std::vector<std::uint32_t>(std::size_t(positions.shape(0)), no_face);
+    if (normals.shape(0) != positions.shape(0) || faces.size() != static_cast<std::size_t>(positions.shape(0)))
+        throw py::value_error("points: the arrays have different numbers of rows");
+    std::vector<SurfacePoint> result;
+    result.reserve(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const double* const p = positions.data() + 3 * i;
+        const float* const n = normals.data() + 3 * i;
+        result.push_back({{p[0], p[1], p[2]}, {n[0], n[1], n[2]}, faces[i]});
+    }
+    return result;
+}
+
 Result bake_any(const py::object& mesh_argument, const py::object& radius, const std::string& quality,
                 const std::optional<double>& error, const std::string& method, const py::dict& parameters,
                 const std::vector<std::string>& attributes, const py::list& occluders, bool ground,
                 const std::array<double, 3>& up, bool self_only, const std::string& via, const std::string& normals,
                 const std::string& sign, const py::object& voxel, const py::object& points, std::uint32_t seed,
                 unsigned threads, const py::object& progress) {
-    std::optional<Mesh> made;
-    if (!py::isinstance<Mesh>(mesh_argument))
-        made = to_mesh(mesh_argument, "mesh");
-    const Mesh& mesh = made ? *made : mesh_argument.cast<const Mesh&>();
-    BakeOptions options;
-    options.radius = length(radius, "radius");
-    options.quality = word<Quality>(
-        quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}}, "quality");
-    options.error = error;
-    options.method = method;
-    for (const auto& [name, value] : parameters)
-        options.parameters.emplace_back(name.cast<std::string>(), value.cast<double>());
-    options.attributes = channels_named(attributes);
-    for (const py::handle& occluder : occluders)
-        options.occluders.push_back(to_mesh(py::reinterpret_borrow<py::object>(occluder), "occluders"));
-    options.ground = ground;
-    options.up = {up[0], up[1], up[2]};
-    options.self = self_only;
-    options.via = word<Via>(via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}}, "via");
-    options.normals = word<NormalSource>(normals,
-                                         {{"auto", NormalSource::automatic},
-                                          {"file", NormalSource::file},
-                                          {"angle", NormalSource::angle},
-                                          {"area", NormalSource::area}},
-                                         "normals");
-    options.sign = word<SignChoice>(
-        sign, {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}}, "sign");
-    if (!voxel.is_none())
-        options.voxel = length(voxel, "voxel");
-    options.seed = seed;
-    options.threads = threads;
-    options.progress = progress_for(progress);
-    std::vector<SurfacePoint> surface_points;
-    if (!points.is_none()) {
-        if (!py::isinstance<py::tuple>(points) || py::len(points) < 2 || py::len(points) > 3)
-            throw py::type_error("points: expected (positions, normals) or (positions, normals, faces)");
-        const auto parts = points.cast<py::tuple>();
-        const auto positions = rows<double>(parts[0], 3, "points[0]");
-        const auto point_normals = rows<float>(parts[1], 3, "points[1]");
-        const auto faces = parts.size() == 3 ? indices(parts[2], mesh.face_count(), "points[2]")
-                                             : std::vector<std::uint32_t>(std::size_t(positions.shape(0)), no_face);
-        if (point_normals.shape(0) != positions.shape(0) ||
-            faces.size() != static_cast<std::size_t>(positions.shape(0)))
-            throw py::value_error("points: the arrays have different numbers of rows");
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            const double* const p = positions.data() + 3 * i;
-            const float* const n = point_normals.data() + 3 * i;
-            surface_points.push_back({{p[0], p[1], p[2]}, {n[0], n[1], n[2]}, faces[i]});
-        }
+    using namespace py::literals;
+    const MeshArgument mesh(mesh_argument);
+    const BakeOptions options = options_of(
+        py::dict("radius"_a = radius, "quality"_a = quality, "error"_a = error, "method"_a = method,
+                 "parameters"_a = parameters, "attributes"_a = attributes, "occluders"_a = occluders,
+                 "ground"_a = ground, "up"_a = up, "self_only"_a = self_only, "via"_a = via, "normals"_a = normals,
+                 "sign"_a = sign, "voxel"_a = voxel, "seed"_a = seed, "threads"_a = threads, "progress"_a = progress));
+    const Mesh& baked_mesh = mesh.get();
+    if (points.is_none()) {
+        const py::gil_scoped_release released;
+        return {bake(baked_mesh, options)};
     }
+    const std::vector<SurfacePoint> surface_points = points_of(points, baked_mesh);
     const py::gil_scoped_release released;
-    return {points.is_none() ? bake(mesh, options) : bake(mesh, surface_points, options)};
+    return {bake(baked_mesh, surface_points, options)};
+}
+
+/// Texture maps of one tile.
+struct MapResult {
+    BakedMaps maps;
+};
+
+MapResult bake_maps_any(const py::object& mesh_argument, const std::array<int, 2>& size, int subsamples,
+                        const std::optional<int>& margin, int uv_set, const std::string& space, const py::list& high,
+                        const py::kwargs& others) {
+    const MeshArgument mesh(mesh_argument);
+    const BakeOptions options = options_of(others);
+    MapOptions map;
+    map.width = size[0];
+    map.height = size[1];
+    map.subsamples = subsamples;
+    map.margin = margin;
+    map.uv_set = uv_set;
+    map.space = word<MapSpace>(space, {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}}, "space");
+    for (const py::handle& item : high)
+        map.high.push_back(to_mesh(py::reinterpret_borrow<py::object>(item), "high"));
+    const Mesh& baked_mesh = mesh.get();
+    const py::gil_scoped_release released;
+    return {bake_maps(baked_mesh, options, map)};
+}
+
+py::object layer_of(const py::object& self, Channel channel) {
+    const BakedMaps& maps = self.cast<const MapResult&>().maps;
+    for (const MapLayer& layer : maps.tiles.front().layers)
+        if (layer.attribute == attribute_of(channel)) {
+            std::vector<py::ssize_t> shape{maps.height, maps.width};
+            if (info(layer.attribute).components > 1)
+                shape.push_back(static_cast<py::ssize_t>(info(layer.attribute).components));
+            return view(layer.values.data(), shape, self);
+        }
+    return py::none();
+}
+
+void add_maps(py::module_& module) {
+    py::class_<MapResult> result(module, "BakedMaps",
+                                 "Texture maps; rows from the top. Read-only views, without a copy.");
+    for (const ChannelInfo& channel : channels)
+        result.def_property_readonly(
+            std::string(channel.name).c_str(),
+            [id = channel.channel](const py::object& self) { return layer_of(self, id); },
+            channel.components == 3 ? "(height, width, 3) float32, or None" : "(height, width) float32, or None");
+    result
+        .def_property_readonly(
+            "coverage",
+            [](const py::object& self) {
+                const BakedMaps& maps = self.cast<const MapResult&>().maps;
+                return view(reinterpret_cast<const std::uint8_t*>(maps.tiles.front().coverage.data()),
+                            {maps.height, maps.width}, self);
+            },
+            "(height, width) uint8: 0 background, 1 a face, 2 the margin of an island, 3 no high mesh within reach")
+        .def_property_readonly(
+            "texels", [](const MapResult& r) { return r.maps.texels; }, "baked")
+        .def_property_readonly(
+            "overlaps", [](const MapResult& r) { return r.maps.overlaps; }, "texels of several faces")
+        .def_property_readonly(
+            "baked", [](const MapResult& r) { return Result{r.maps.baked}; },
+            "method, rmse, radius, warnings and seconds");
+    module.def("bake_maps", &bake_maps_any, py::arg("mesh"), py::kw_only(), py::arg("size") = std::array{2048, 2048},
+               py::arg("subsamples") = 1, py::arg("margin") = py::none(), py::arg("uv_set") = 0,
+               py::arg("space") = "tangent", py::arg("high") = py::list(), R"(Bakes texture maps on the UVs of a mesh.
+
+size: (width, height) in texels. subsamples: samples along each side of a texel. margin: texels to fill around islands.
+uv_set: of a glTF file. space: "tangent" or "object", of directions. high: meshes whose surface is baked instead.
+All other options are those of bake(). Returns a BakedMaps. Raises as bake(), and InputError without UVs.)");
 }
 
 void add_result(py::module_& module) {
@@ -207,6 +335,7 @@ PYBIND11_MODULE(_alcove, module) {
     add_exceptions(module);
     add_mesh(module);
     add_result(module);
+    add_maps(module);
     add_field(module);
     module.def(
         "bake", &bake_any, py::arg("mesh"), py::kw_only(), py::arg("radius") = "10%", py::arg("quality") = "good",

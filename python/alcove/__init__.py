@@ -9,6 +9,7 @@
 """
 from ._alcove import (  # noqa: F401
     Baked,
+    BakedMaps,
     Field,
     InputError,
     IoError,
@@ -19,9 +20,10 @@ from ._alcove import (  # noqa: F401
     __version__,
     add,
     bake,
+    bake_maps,
     read,
     write,
 )
 
-__all__ = ["Baked", "Field", "InputError", "IoError", "LimitError", "MemoryError", "Mesh", "TimeLimitError", "add", "bake",
+__all__ = ["Baked", "BakedMaps", "Field", "InputError", "IoError", "LimitError", "MemoryError", "Mesh", "TimeLimitError", "add", "bake", "bake_maps",
            "read", "write"]

@@ -151,6 +151,24 @@ class Bakes(unittest.TestCase):
         self.assertLess(covered[0], 0.1)
         self.assertLess(alcove.bake(cube(2), ground=True, radius=1.0, method="exact").ao.min(), 0.6)
 
+    def test_maps(self):
+        vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+        mesh = alcove.Mesh(vertices, [[0, 1, 2, 3]], uvs=0.1 + 0.8 * vertices[:, :2])
+        lid = (vertices + [0, 0, 0.5], [[0, 1, 2, 3]])
+        maps = alcove.bake_maps(mesh, size=(64, 32), radius="inf", occluders=[lid], margin=0)
+        self.assertEqual(maps.ao.shape, (32, 64))
+        center, corner = maps.ao[16, 32], maps.ao[28, 8]
+        self.assertLess(center, corner)
+        expected = alcove.bake(mesh, points=([[0.5, 0.5, 0]], [[0, 0, 1]]), radius="inf", occluders=[lid], method="exact",
+                               parameters={"rays": 1024}).ao[0]
+        self.assertAlmostEqual(center, expected, delta=0.05)
+        self.assertEqual(maps.coverage[0, 0], 0)
+        self.assertEqual(maps.texels, (maps.coverage == 1).sum())
+        with self.assertRaises(TypeError):
+            alcove.bake_maps(mesh, colour=1)
+        with self.assertRaises(alcove.InputError):
+            alcove.bake_maps(cube())
+
     def test_progress_and_its_exceptions(self):
         calls = []
         alcove.bake(cube(20), progress=lambda work, done: calls.append((work, done)))
