@@ -11,7 +11,7 @@ if [ "${1:-}" != --installed ]; then
     command -v npm >/dev/null || packages+=(nodejs npm)
     tools/setup.sh "${packages[@]}"
     cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-    cmake --build build --target alcove_cli
+    cmake --build build --target alcove_cli alcove_python
 fi
 
 work=build/interop
@@ -74,6 +74,14 @@ if command -v chromium >/dev/null && [ -d "$work/node_modules/playwright-core" ]
         out/textured_map.glb=texture
 else
     echo "interop: skipped: three.js (chromium, npm or Blender is missing)"
+fi
+if command -v blender >/dev/null && [ -d build/python/alcove ]; then
+    tools/addon.sh >/dev/null
+    check env BLENDER_USER_RESOURCES="$PWD/$work/blender" blender --background --python "$work/test_addon.py" -- \
+        build/alcove_blender.zip build/alcove "$work/addon" --module build/python >"$work/addon.log" 2>&1
+    grep -E "^FAILED|^ok" "$work/addon.log" || cat "$work/addon.log"
+else
+    echo "interop: skipped: the Blender add-on (blender or the Python module is missing)"
 fi
 echo "interop: $count checks, $failed failed"
 [ "$failed" -eq 0 ]
