@@ -100,8 +100,14 @@ class GltfReader {
         check_extensions(root_);
         document_->placements = placements_of(file_);
         check_size();
+        std::map<std::size_t, std::size_t> last; // placement of each mesh
         for (std::size_t p = 0; p < document_->placements.size(); ++p)
+            last[document_->placements[p].mesh] = p;
+        for (std::size_t p = 0; p < document_->placements.size(); ++p) {
             add(p);
+            if (const std::size_t mesh = document_->placements[p].mesh; last[mesh] == p)
+                decoded_[mesh].clear();
+        }
         round_to_floats();
         warn();
         describe_contents();
@@ -277,9 +283,10 @@ class GltfReader {
         const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                    glm::cross(linear[0], linear[1]));
         const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
+        mesh_.positions.resize(first + count);
         for (std::size_t v = 0; v < count; ++v) {
             const float* p = vertices.positions.data() + 3 * v;
-            mesh_.positions.emplace_back(to_scene * glm::dvec4(p[0], p[1], p[2], 1.0));
+            mesh_.positions[first + v] = linear * Vec3d(p[0], p[1], p[2]) + Vec3d(to_scene[3]);
         }
         if (!vertices.normals.empty()) {
             mesh_.normals.resize(first, Vec3(0.0f));
@@ -316,12 +323,16 @@ class GltfReader {
         const GltfPlacement& placement = document_->placements[placement_number];
         const std::size_t first_face = mesh_.face_count();
         const bool mirrored = glm::determinant(glm::dmat3(placement.to_scene)) < 0.0;
-        for (std::size_t c = 0; c < corners.size(); c += 3) {
-            const std::array<std::size_t, 3> order{0, mirrored ? 2u : 1u, mirrored ? 1u : 2u};
+        const std::size_t first_corner = mesh_.corners.size();
+        mesh_.corners.resize(first_corner + corners.size());
+        std::uint32_t* to = mesh_.corners.data() + first_corner;
+        const std::array<std::size_t, 3> order{0, mirrored ? 2u : 1u, mirrored ? 1u : 2u};
+        for (std::size_t c = 0; c < corners.size(); c += 3)
             for (const std::size_t k : order)
-                mesh_.corners.push_back(static_cast<std::uint32_t>(first_vertex + corners[c + k]));
-            mesh_.face_begin.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
-        }
+                *to++ = static_cast<std::uint32_t>(first_vertex) + corners[c + k];
+        mesh_.face_begin.resize(first_face + 1 + corners.size() / 3);
+        for (std::size_t f = first_face + 1; f < mesh_.face_begin.size(); ++f)
+            mesh_.face_begin[f] = static_cast<std::uint32_t>(first_corner + 3 * (f - first_face));
         FaceGroup group{placement.names, static_cast<std::uint32_t>(first_face)};
         Color color{255, 255, 255, 255};
         std::optional<std::size_t> material_number;
@@ -388,15 +399,14 @@ class GltfReader {
             if (root_.has(plural) && root_[plural].size() > 0)
                 document_->content_counts.push_back(counted(root_[plural].size(), singular, plural));
         std::size_t sets = 0;
-        for (const auto& [number, all] : decoded_)
-            for (const DecodedVertices& vertices : all) {
-                const GltfValue attributes =
-                    mesh_value(number)["primitives"][vertices.primitives.front()]["attributes"];
-                std::size_t own = 0;
-                while (attributes.has(fmt::format("TEXCOORD_{}", own).c_str()))
-                    ++own;
-                sets = std::max(sets, own);
-            }
+        for (const GltfVertices& vertices : document_->vertices) {
+            const std::size_t mesh = document_->placements[vertices.placement].mesh;
+            const GltfValue attributes = mesh_value(mesh)["primitives"][vertices.primitives.front()]["attributes"];
+            std::size_t own = 0;
+            while (attributes.has(fmt::format("TEXCOORD_{}", own).c_str()))
+                ++own;
+            sets = std::max(sets, own);
+        }
         document_->uv_set_count = sets;
     }
 
