@@ -37,8 +37,10 @@ std::uint64_t PointField::key(const Voxel& voxel) {
 }
 
 std::size_t PointField::place_in(const Block& block, const Voxel& voxel) {
-    return static_cast<std::size_t>(((voxel[0] - block.at[0]) * side + voxel[1] - block.at[1]) * side + voxel[2] -
-                                    block.at[2]);
+    std::size_t place = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        place = place * side + static_cast<std::size_t>(voxel[axis] - block.at[axis]);
+    return place;
 }
 
 std::uint32_t PointField::make_block(const Voxel& voxel) {
@@ -202,7 +204,7 @@ void PointField::build_surface() {
         for (std::int32_t x = 0; x < side; ++x)
             for (std::int32_t y = 0; y < side; ++y)
                 for (std::int32_t z = 0; z < side; ++z) {
-                    const auto at = static_cast<std::size_t>((x * side + y) * side + z);
+                    const std::size_t at = place_in(block, {block.at[0] + x, block.at[1] + y, block.at[2] + z});
                     if (block.count[at] < least_points)
                         continue;
                     Crossing crossing{{block.at[0] + x, block.at[1] + y, block.at[2] + z}, {}};
@@ -211,8 +213,8 @@ void PointField::build_surface() {
                         const Voxel d = corner(c);
                         std::optional<float> v;
                         if (x + d[0] < side && y + d[1] < side && z + d[2] < side) {
-                            const auto here =
-                                static_cast<std::size_t>(((x + d[0]) * side + y + d[1]) * side + z + d[2]);
+                            const std::size_t here = place_in(
+                                block, {crossing.cell[0] + d[0], crossing.cell[1] + d[1], crossing.cell[2] + d[2]});
                             if (block.count[here] >= least_points)
                                 v = block.value[here] / block.weight[here];
                         } else {

@@ -34,11 +34,12 @@ class PointField {
 
   private:
     static constexpr int side = 8; ///< voxels along a block
+    static constexpr std::size_t volume = 512;
     struct Block {
         std::array<std::int32_t, 3> at; ///< its first voxel
-        std::array<float, side * side * side> value, weight;
-        std::array<std::uint8_t, side * side * side> count;   ///< of points, at most 255
-        std::array<std::uint32_t, side * side * side> vertex; ///< of the cell whose lowest corner this is
+        std::array<float, volume> value, weight;
+        std::array<std::uint8_t, volume> count;   ///< of points, at most 255
+        std::array<std::uint32_t, volume> vertex; ///< of the cell whose lowest corner this is
     };
     static std::uint64_t key(const std::array<std::int32_t, 3>& voxel);
     static std::size_t place_in(const Block& block, const std::array<std::int32_t, 3>& voxel);

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <bit>
 #include <map>
 #include <unordered_map>
 
@@ -26,16 +26,12 @@ struct SplitVertices {
     std::vector<Triangle> triangles;
 };
 
-struct CornerKey {
-    std::uint32_t vertex;
-    std::array<float, 5> values; ///< u, v, normal
-    bool operator==(const CornerKey& other) const { return std::memcmp(this, &other, sizeof(*this)) == 0; }
-};
-static_assert(sizeof(CornerKey) == 6 * sizeof(float));
+/// A vertex, and the bits of u, v and the normal.
+using CornerKey = std::array<std::uint32_t, 6>;
 
 struct CornerHash {
     std::size_t operator()(const CornerKey& key) const {
-        return std::hash<std::string_view>()({reinterpret_cast<const char*>(&key), sizeof(key)});
+        return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof(key)});
     }
 };
 
@@ -52,15 +48,14 @@ SplitVertices split(const Mesh& mesh) {
     std::unordered_map<CornerKey, std::uint32_t, CornerHash> known;
     for (std::size_t t = 0; t < result.triangles.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k) {
-            CornerKey key{result.triangles[t][k], {}};
             const std::uint32_t corner = corners[t][k];
-            if (!mesh.corner_uvs.empty())
-                key.values = {mesh.corner_uvs[corner].x, mesh.corner_uvs[corner].y, 0.0f, 0.0f, 0.0f};
-            if (!mesh.corner_normals.empty())
-                std::copy_n(&mesh.corner_normals[corner].x, 3, key.values.data() + 2);
+            const Vec2 uv = mesh.corner_uvs.empty() ? Vec2(0.0f) : mesh.corner_uvs[corner];
+            const Vec3 n = mesh.corner_normals.empty() ? Vec3(0.0f) : mesh.corner_normals[corner];
+            const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+            const CornerKey key{result.triangles[t][k], bits(uv.x), bits(uv.y), bits(n.x), bits(n.y), bits(n.z)};
             const auto [place, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(result.source.size()));
             if (is_new) {
-                result.source.push_back(key.vertex);
+                result.source.push_back(key[0]);
                 result.corner.push_back(corner);
             }
             result.triangles[t][k] = place->second;
