@@ -92,11 +92,18 @@ std::vector<glm::dmat4> instances_of(GltfFile& file, const GltfValue& attributes
     std::vector<glm::dmat4> instances;
     instances.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const float *t = translations.data() + 3 * i, *r = rotations.data() + 4 * i, *s = scales.data() + 3 * i;
-        instances.push_back(
-            transform(translations.empty() ? Vec3d(0.0) : Vec3d(t[0], t[1], t[2]),
-                      rotations.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : glm::dquat(r[3], r[0], r[1], r[2]),
-                      scales.empty() ? Vec3d(1.0) : Vec3d(s[0], s[1], s[2])));
+        Vec3d translation(0.0), scale(1.0);
+        glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int axis = static_cast<int>(k);
+            if (!translations.empty())
+                translation[axis] = translations[3 * i + k];
+            if (!scales.empty())
+                scale[axis] = scales[3 * i + k];
+        }
+        if (!rotations.empty())
+            rotation = glm::dquat(rotations[4 * i + 3], rotations[4 * i], rotations[4 * i + 1], rotations[4 * i + 2]);
+        instances.push_back(transform(translation, rotation, scale));
     }
     return instances;
 }
