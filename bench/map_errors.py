@@ -68,11 +68,12 @@ def main():
     parser.add_argument('--size', type=int, default=512)
     parser.add_argument('--rays', type=int, default=1024)
     parser.add_argument('--radius', default='10%')
+    parser.add_argument('--high', help='a high-poly mesh to bake into the UVs')
     parser.add_argument('meshes', nargs='+')
     arguments = parser.parse_args()
     print('%-24s %9s  %-7s %-16s %9s %8s %9s' % ('mesh', 'texels', 'quality', 'method', 'evaluated', 'RMSE', 'estimate'))
     for mesh in arguments.meshes:
-        radius = ['--radius', arguments.radius]
+        radius = ['--radius', arguments.radius] + (['--high', arguments.high] if arguments.high else [])
         exact, truth = bake(mesh, arguments.size, '--method', 'exact', '--rays', str(arguments.rays), '--seed', '7',
                             '--no-pilot', *radius)
         for quality in 'draft', 'good', 'fine':

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
     alcove::keep_freed_memory();
     alcove::cli::end_cleanly();
     CLI::App program{"Ambient occlusion on sparse signed-distance grids: any mesh in, an AO-coloured mesh out."};
-    program.set_version_flag("--version", "alcove " ALCOVE_VERSION);
+    program.set_version_flag("--version", alcove::cli::version_text());
     program.require_subcommand(1);
     program.footer("Start with: alcove bake model.ply -o model_ao.ply");
     program.get_formatter()->column_width(36);

@@ -5,6 +5,7 @@
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/detail/simd.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -114,6 +115,11 @@ Length length_without_vx(const std::string& text, std::string_view forms) {
     throw InputError(fmt::format("takes {}, not '{}'", forms, text));
 }
 
+std::string version_text() {
+    const std::string commit = ALCOVE_COMMIT;
+    return fmt::format("alcove {} ({}{}{})", ALCOVE_VERSION, commit, commit.empty() ? "" : ", ", simd_target());
+}
+
 void add_run_options(CLI::App& verb, CommonOptions& options) {
     verb.add_option("--threads", options.threads, "Threads to use; 0: one per core")->capture_default_str();
     add_choice<ProgressMode>(verb, "--progress", options.progress,
@@ -136,7 +142,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
         ->option_text("SECONDS");
     add_limits(verb);
     verb.add_flag("--quiet", options.quiet, "Print only errors and the result of --json");
-    verb.set_version_flag("--version", "alcove " ALCOVE_VERSION);
+    verb.set_version_flag("--version", version_text());
 }
 
 void add_common_options(CLI::App& verb, CommonOptions& options) {

@@ -76,6 +76,9 @@ struct CommonOptions {
     ProgressMode progress_mode() const { return quiet ? ProgressMode::none : progress; }
 };
 
+/// "alcove 0.2.0 (1a2b3c4, AVX2)": the version, the commit if it was built from one, and the SIMD target.
+std::string version_text();
+
 /// Adds --threads, --progress, --time-limit, --max-memory, --max-read, --quiet and --version.
 void add_run_options(CLI::App& verb, CommonOptions& options);
 

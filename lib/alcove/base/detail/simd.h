@@ -1,0 +1,11 @@
+/// The instruction set that SIMD code runs on.
+#pragma once
+
+#include <string>
+
+namespace alcove {
+
+/// The best one of this processor that the code was compiled for, such as "AVX2". Chosen at run time.
+std::string simd_target();
+
+}
