@@ -462,5 +462,5 @@ TEST_F(GltfRead, RefusesDeepAndBrokenJson) {
 TEST_F(GltfRead, AnEmptySceneIsRefused) {
     GltfBuilder builder;
     builder.show({});
-    expect_has(refusal(builder), "no faces");
+    expect_has(refusal(builder), "no mesh in its scene");
 }

@@ -143,6 +143,25 @@ TEST_F(GltfWrite, WithoutValuesAFileStaysAsItIs) {
     EXPECT_EQ(bytes_of("out.glb"), bytes);
 }
 
+TEST_F(GltfWrite, ASecondBakeReplacesTheValuesOfTheFirst) {
+    GltfBuilder builder = two_squares();
+    Mesh mesh = read("in.glb", builder.glb());
+    mesh.set_attribute({"ao", 1, ramp(8, 0.2f)});
+    mesh.added_colors = grey_colors(ramp(8, 0.2f));
+    mesh.added_comments = {"alcove 0: ao"};
+    write_mesh(mesh, path("first.glb"));
+    Mesh again = read_mesh(path("first.glb"));
+    again.set_attribute({"ao", 1, ramp(8, 0.4f)});
+    again.added_colors = grey_colors(ramp(8, 0.4f));
+    again.added_comments = {"alcove 0: ao"};
+    write_mesh(again, path("second.glb"));
+    EXPECT_EQ(bytes_of("second.glb").size(), bytes_of("first.glb").size());
+    const Written out = written("second.glb");
+    const std::vector<float> wanted = ramp(8, 0.4f);
+    EXPECT_EQ(out.values(0, "_AO"), std::vector<float>(wanted.begin(), wanted.begin() + 4));
+    EXPECT_EQ(out.values(1, "_AO"), std::vector<float>(wanted.begin() + 4, wanted.end()));
+}
+
 TEST_F(GltfWrite, KeepsOtherChunks) {
     GltfBuilder builder = two_squares();
     std::string bytes = builder.glb();
@@ -306,7 +325,9 @@ TEST_F(GltfWrite, TexturesBelongToMaterials) {
     Json bare = builder.square();
     builder.json["scenes"][0]["nodes"].push_back(builder.add_node({{"mesh", builder.add_mesh({bare})}}));
     const Mesh mesh = read("in.glb", builder.glb());
-    const std::vector<GltfTexture> textures{{0, 0, "first image"}, {std::nullopt, 1, "second"}};
+    const std::vector<std::pair<std::size_t, std::size_t>> of_squares{{0, 0}}, of_bare{{1, 0}};
+    const std::vector<GltfTexture> textures{GltfTexture{0, of_squares, 0, "first image"},
+                                            GltfTexture{std::nullopt, of_bare, 1, "second"}};
     write_gltf(mesh, path("out.glb"), textures);
     const Written out = written("out.glb");
     ASSERT_EQ(out.json["materials"].size(), 2u);

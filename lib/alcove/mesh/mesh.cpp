@@ -1,6 +1,7 @@
 #include "alcove/mesh/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace alcove {
@@ -29,6 +30,13 @@ Box Mesh::box() const {
 }
 
 void Mesh::set_attribute(Attribute attribute) {
+    constexpr std::array<std::string_view, 6> taken{"x", "y", "z", "nx", "ny", "nz"};
+    const auto fits = [](unsigned char c) { return c > ' ' && c < 0x7f; }; // in a PLY header
+    if (attribute.name.empty() || !std::all_of(attribute.name.begin(), attribute.name.end(), fits) ||
+        std::find(taken.begin(), taken.end(), attribute.name) != taken.end())
+        throw std::invalid_argument("'" + attribute.name + "' cannot be the name of an attribute");
+    if (attribute.components < 1)
+        throw std::invalid_argument("attribute '" + attribute.name + "' has no components");
     if (attribute.values.size() != vertex_count() * static_cast<std::size_t>(attribute.components))
         throw std::invalid_argument("attribute '" + attribute.name + "' does not have one value per vertex");
     const auto same = std::find_if(attributes.begin(), attributes.end(),

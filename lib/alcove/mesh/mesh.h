@@ -29,6 +29,8 @@ enum class ColorEncoding {
 /// Consecutive faces with the same names in the file: those of the glTF node, its ancestors, its mesh and its material;
 /// those in the `o`, `g` and `usemtl` lines of an OBJ.
 struct FaceGroup {
+    static constexpr std::size_t most_letters = 256; ///< of a name; longer ones are cut
+
     std::vector<std::string> names;
     std::uint32_t first_face = 0; ///< the last one is before the next group
     bool see_through = false;     ///< its glTF material is masked or blended

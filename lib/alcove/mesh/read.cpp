@@ -1,5 +1,6 @@
 #include "alcove/mesh/files.h"
 
+#include "alcove/base/detail/file_kind.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
@@ -31,9 +32,7 @@ const Format& format_of(const FileBytes& file) {
     if (begins_as_gltf(file))
         return gltf;
     refuse_wide_text(file);
-    std::string extension = file.path().extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(file.path());
     if (extension == ".ply")
         return ply;
     if (extension == ".off")

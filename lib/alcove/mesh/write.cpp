@@ -1,6 +1,7 @@
 #include "alcove/mesh/files.h"
 
 #include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/file_kind.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/formats/formats.h"
 
@@ -15,9 +16,7 @@ namespace {
 using Writer = std::vector<std::string> (*)(const Mesh&, const std::filesystem::path&);
 
 Writer writer_for(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(file);
     if (extension == ".ply")
         return write_ply;
     if (extension == ".obj")

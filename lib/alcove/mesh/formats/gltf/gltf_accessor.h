@@ -43,8 +43,7 @@ class GltfAccessor {
     Elements sparse_;
 };
 
-/// The count of an accessor, at most what its buffers can hold. \throw InputError if it is not a number, LimitError if
-/// an accessor without data is larger than the memory limit.
+/// The count of an accessor. \throw InputError if it is not a whole number, or exceeds 2^32.
 std::size_t count_of_accessor(const GltfValue& accessor);
 
 }

@@ -95,6 +95,8 @@ DracoMesh decode_draco(GltfFile& file, const GltfValue& draco) {
         }
     const GltfValue ids = draco["attributes"];
     for (const auto& [name, id] : ids.json().items()) {
+        if (name != "POSITION" && name != "NORMAL" && name != "COLOR_0" && !name.starts_with("TEXCOORD_"))
+            continue;
         const GltfValue number = ids[name.c_str()];
         const draco::PointAttribute* attribute =
             mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(number.count()));

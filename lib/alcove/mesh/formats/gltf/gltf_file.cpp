@@ -1,6 +1,7 @@
 // Format: glTF 2.0 (Khronos 2021).
 #include "alcove/mesh/formats/gltf/gltf_file.h"
 
+#include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/formats/byte_reader.h"
@@ -10,11 +11,13 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace alcove {
 namespace {
 
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk_type = 0x004e4942;
-constexpr int max_depth = 200; // writing the JSON is recursive
+constexpr std::size_t max_depth = 200; // writing the JSON is recursive
 
 }
 
@@ -26,8 +29,8 @@ GltfFile::GltfFile(const FileBytes& bytes) : bytes_(bytes) {
     parse_json(json_text_);
     if (!json_.is_object())
         bytes_.fail("is not glTF: its JSON is not an object");
-    const std::string version = root()["asset"].text_or("version", "");
-    if (!version.starts_with("2."))
+    const std::string version = root()["asset"].text_or("minVersion", root()["asset"].text_or("version", ""));
+    if (version.substr(0, 3) != "2.0" && !(version.starts_with("2.") && !root()["asset"].has("minVersion")))
         root()["asset"].fail(fmt::format("version {} cannot be read; convert it to glTF 2.0", in_quotes(version)));
     if (has_binary_chunk_ && root().has("buffers") && root()["buffers"].size() > 0) {
         const std::size_t length = root()["buffers"][0].count_or("byteLength", 0);
@@ -74,14 +77,43 @@ void GltfFile::parse_chunks() {
     }
 }
 
+/// Refuses JSON that would take much more memory or time than its size tells, before it is parsed.
+void GltfFile::check_json(std::string_view text) const {
+    constexpr std::size_t most_keys = 4096; // of an object, which are searched one by one
+    constexpr double bytes_per_value = 64.0;
+    std::vector<std::size_t> commas; // in each open object or array
+    double values = 1.0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') {
+            for (++i; i < text.size() && text[i] != '"'; ++i)
+                i += text[i] == '\\';
+        } else if (c == '{' || c == '[') {
+            commas.push_back(c == '{' ? 0 : std::numeric_limits<std::size_t>::max() / 2);
+            values += 1.0;
+            if (commas.size() > max_depth)
+                bytes_.fail(fmt::format("its JSON is nested more than {} levels deep; export it again", max_depth));
+        } else if ((c == '}' || c == ']') && !commas.empty()) {
+            commas.pop_back();
+        } else if (c == ',' && !commas.empty()) {
+            values += 1.0;
+            if (++commas.back() == most_keys)
+                bytes_.fail_at_line(
+                    text.data() + i,
+                    fmt::format("an object has more than {} keys; export the file again", grouped(most_keys)));
+        }
+    }
+    if (bytes_per_value * values > memory_limit())
+        throw LimitError(fmt::format("{}: its JSON takes about {} of memory, more than the limit of {}: raise "
+                                     "--max-memory, or split the scene",
+                                     bytes_.path().string(), bytes_text(bytes_per_value * values),
+                                     bytes_text(memory_limit())));
+}
+
 void GltfFile::parse_json(std::string_view text) {
-    const auto limit_depth = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > max_depth)
-            bytes_.fail(fmt::format("its JSON is nested more than {} levels deep; export it again", max_depth));
-        return true;
-    };
+    check_json(text);
     try {
-        json_ = Json::parse(text.begin(), text.end(), limit_depth);
+        json_ = Json::parse(text.begin(), text.end());
     } catch (const Json::parse_error& error) {
         const std::size_t at = std::min(error.byte == 0 ? 0 : error.byte - 1, text.size());
         bytes_.fail_at_line(text.data() + at, "the JSON is damaged here; export the file again");
@@ -97,6 +129,7 @@ bool GltfFile::is_indented() const {
 }
 
 std::string_view GltfFile::buffer(const GltfValue& buffer) {
+    const std::lock_guard lock(mutex_);
     const std::size_t length = buffer["byteLength"].count();
     std::string_view bytes;
     if (!buffer.has("uri")) {
@@ -104,14 +137,15 @@ std::string_view GltfFile::buffer(const GltfValue& buffer) {
             buffer.fail("has no data; export the file again");
         bytes = binary_chunk_;
     } else {
-        auto known = buffers_.find(buffer.place());
+        const std::string& uri = buffer["uri"].text();
+        const std::string key = is_data_uri(uri) ? buffer.place() : uri;
+        auto known = buffers_.find(key);
         if (known == buffers_.end()) {
-            const std::string& uri = buffer["uri"].text();
             if (is_data_uri(uri)) {
                 const std::optional<std::string> data = data_of_uri(uri);
                 if (!data)
                     buffer["uri"].fail("is not a data URI in base64; export the file again");
-                known = buffers_.try_emplace(buffer.place(), bytes_.path(), *data).first;
+                known = buffers_.try_emplace(key, bytes_.path(), *data).first;
             } else {
                 const std::optional<std::filesystem::path> path = path_of_uri(uri);
                 if (!path)
@@ -119,9 +153,19 @@ std::string_view GltfFile::buffer(const GltfValue& buffer) {
                                                    "read; put it beside this one",
                                                    in_quotes(uri)));
                 const std::filesystem::path file = bytes_.path().parent_path() / *path;
-                if (std::error_code error; !std::filesystem::is_regular_file(file, error))
+                std::error_code error;
+                if (!std::filesystem::is_regular_file(file, error))
                     buffer["uri"].fail(fmt::format("the file {} is missing; put it beside this one", in_quotes(uri)));
-                known = buffers_.try_emplace(buffer.place(), file).first;
+                // A link may lead out of the folder, too.
+                const auto folder = bytes_.path().has_parent_path() ? bytes_.path().parent_path() : ".";
+                const auto inside = std::filesystem::weakly_canonical(file, error)
+                                        .lexically_relative(std::filesystem::weakly_canonical(folder, error));
+                if (inside.empty() || *inside.begin() == "..")
+                    buffer["uri"].fail(
+                        fmt::format("{} leads out of the folder of this file, and no other file is read; "
+                                    "put the data beside this one",
+                                    in_quotes(uri)));
+                known = buffers_.try_emplace(key, file).first;
             }
         }
         bytes = known->second.view();
@@ -133,10 +177,17 @@ std::string_view GltfFile::buffer(const GltfValue& buffer) {
 }
 
 std::string_view GltfFile::view(const GltfValue& view) {
+    const std::lock_guard lock(mutex_);
     if (const std::optional<GltfValue> compression = meshopt_of(view)) {
         auto known = decompressed_.find(view.place());
-        if (known == decompressed_.end())
+        if (known == decompressed_.end()) {
             known = decompressed_.try_emplace(view.place(), decompress(*this, *compression)).first;
+            decompressed_bytes_ += static_cast<double>(known->second.size());
+            if (decompressed_bytes_ > memory_limit())
+                throw LimitError(fmt::format("{}: decompressed, its buffers take more than the limit of {}: raise "
+                                             "--max-memory",
+                                             bytes_.path().string(), bytes_text(memory_limit())));
+        }
         return known->second;
     }
     return range_in(buffer(view["buffer"].target(root(), "buffers")), view);

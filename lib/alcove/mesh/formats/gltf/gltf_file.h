@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,13 +37,16 @@ class GltfFile {
   private:
     void parse_chunks();
     void parse_json(std::string_view text);
+    void check_json(std::string_view text) const;
 
     FileBytes bytes_;
     Json json_;
     bool is_binary_ = false, has_binary_chunk_ = false;
     std::string_view json_text_, binary_chunk_, other_chunks_;
-    std::map<std::string, FileBytes> buffers_; ///< by place; those that are files or data URIs
+    std::recursive_mutex mutex_;               ///< of what follows, which is read at the first use
+    std::map<std::string, FileBytes> buffers_; ///< files by URI, data URIs by place
     std::map<std::string, std::string> decompressed_;
+    double decompressed_bytes_ = 0.0;
 };
 
 }

@@ -1,6 +1,7 @@
 #include "alcove/mesh/formats/gltf/gltf_output.h"
 
 #include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/file_kind.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/formats/gltf/gltf_uri.h"
@@ -30,9 +31,7 @@ std::string padding(std::size_t size, char c) {
 }
 
 bool is_glb(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(file);
     return extension == ".glb";
 }
 
@@ -63,7 +62,7 @@ GltfOutput::GltfOutput(const fs::path& target, GltfFile& file)
     if (is_binary_ && !file.has_binary_chunk() && buffers == 1) {
         binary_ = file.buffer(file.root()["buffers"][0]);
         json_["buffers"][0].erase("uri");
-    } else if (!file.has_binary_chunk() && buffers > 0) {
+    } else if (buffers > 0 && (!file.has_binary_chunk() || json_["buffers"][0].contains("uri"))) {
         appends_to_binary_ = false;
     }
     if (!is_binary_ && file.has_binary_chunk())
@@ -100,10 +99,10 @@ void GltfOutput::move_images(const fs::path& from) {
         ++moved;
     }
     if (moved > 0)
-        warnings_.push_back(counted(moved, "path of an image was", "paths of images were") +
+        warnings_.push_back(counted(moved, "image path was", "image paths were") +
                             " rewritten relative to the output folder");
     if (lost > 0)
-        warnings_.push_back(counted(lost, "path of an image was", "paths of images were") +
+        warnings_.push_back(counted(lost, "image path was", "image paths were") +
                             " kept, but no such file was found relative to the input folder");
 }
 
@@ -166,8 +165,31 @@ std::size_t GltfOutput::add_indices(std::span<const std::uint32_t> values, std::
 }
 
 std::size_t GltfOutput::add_png(std::string_view bytes, const std::string& name) {
-    json_["images"].push_back({{"name", name}, {"bufferView", add_view(bytes, no_target)}, {"mimeType", "image/png"}});
+    const std::size_t view = add_view(bytes, no_target); // may move the arrays of the root
+    json_["images"].push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
     return json_["images"].size() - 1;
+}
+
+bool GltfOutput::overwrite(std::size_t accessor, int component_type, std::string_view bytes) {
+    if (!appends_to_binary_ || binary_.empty() || accessor >= json_["accessors"].size())
+        return false;
+    const Json& old = json_["accessors"][accessor];
+    if (!old.contains("bufferView") || old.contains("sparse") || old.value("byteOffset", 0) != 0 ||
+        old["componentType"] != component_type)
+        return false;
+    const auto users = std::count_if(json_["accessors"].begin(), json_["accessors"].end(), [&](const Json& other) {
+        return other.contains("bufferView") && other["bufferView"] == old["bufferView"];
+    });
+    const Json& view = json_["bufferViews"][old["bufferView"].get<std::size_t>()];
+    const std::size_t offset = view.value("byteOffset", std::size_t(0));
+    if (users != 1 || view["buffer"] != 0 || view["byteLength"] != bytes.size() || view.contains("byteStride") ||
+        view.contains("extensions") || offset > binary_.size() || bytes.size() > binary_.size() - offset)
+        return false;
+    if (rewritten_.empty())
+        rewritten_ = binary_;
+    binary_ = rewritten_;
+    std::copy(bytes.begin(), bytes.end(), rewritten_.begin() + static_cast<std::ptrdiff_t>(offset));
+    return true;
 }
 
 /// Gives the buffers their final lengths and, in a .gltf, their data.

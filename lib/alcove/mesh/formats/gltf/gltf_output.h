@@ -27,6 +27,9 @@ class GltfOutput {
     std::size_t add_positions(std::span<const float> values); ///< with their bounds
     std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
     std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
+    /// Replaces the values of an accessor if it alone has these bytes in the binary chunk, so that files do not grow with
+    /// each bake. \return whether it did.
+    bool overwrite(std::size_t accessor, int component_type, std::string_view bytes);
     /// Appends a PNG, and returns the index in `images`.
     std::size_t add_png(std::string_view bytes, const std::string& name);
 
@@ -47,6 +50,7 @@ class GltfOutput {
     bool is_binary_, is_indented_ = false;
     Json json_;
     std::string_view binary_, other_chunks_; ///< of the file
+    std::string rewritten_;                  ///< a copy of binary_, if accessors were overwritten
     bool appends_to_binary_ = true;          ///< else to a buffer of its own
     std::string added_;                      ///< after binary_, which is padded to a multiple of 4
     std::vector<std::string> warnings_;

@@ -18,6 +18,8 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
+#include <unordered_map>
 
 namespace alcove {
 namespace {
@@ -39,7 +41,8 @@ void check_extensions(const GltfValue& root) {
         if (std::find(geometry_extensions.begin(), geometry_extensions.end(), name) == geometry_extensions.end() &&
             std::none_of(appearance_extensions.begin(), appearance_extensions.end(), begins))
             (*required)[i].fail(
-                fmt::format("the file needs {}, which cannot be read; export it without", in_quotes(name)));
+                fmt::format("the file needs {}, which Alcove cannot read; export the file without that extension",
+                            in_quotes(name)));
     }
 }
 
@@ -108,6 +111,9 @@ class GltfReader {
             if (const std::size_t mesh = document_->placements[p].mesh; last[mesh] == p)
                 decoded_[mesh].clear();
         }
+        if (mesh_.face_count() == 0)
+            file_.bytes().fail(left_out_ > 0 ? "contains points or lines but no faces; export it with triangles"
+                                             : "contains no mesh in its scene; export it again");
         round_to_floats();
         warn();
         describe_contents();
@@ -120,8 +126,11 @@ class GltfReader {
 
     /// Counts vertices and corners with all instances before any are decoded.
     void check_size() {
-        std::map<std::size_t, std::pair<double, double>> sizes; // vertices and corners
-        double vertices = 0.0, corners = 0.0;
+        struct Size {
+            double vertices = 0.0, corners = 0.0, groups = 0.0;
+        };
+        std::map<std::size_t, Size> sizes; // by mesh
+        Size all;
         for (const GltfPlacement& placement : document_->placements) {
             const auto [known, is_new] = sizes.try_emplace(placement.mesh);
             if (is_new) {
@@ -129,29 +138,35 @@ class GltfReader {
                 for (std::size_t i = 0; i < primitives.size(); ++i) {
                     if (!is_surface(primitives[i]))
                         continue;
-                    const double count = double(count_of_accessor(*accessor_of(root_, primitives[i], "POSITION")));
+                    const GltfValue positions = *accessor_of(root_, primitives[i], "POSITION");
+                    const GltfAccessor checked(file_, positions, 3, 3); // its count fits its buffer view
+                    const auto count = static_cast<double>(checked.count());
                     const bool strip = primitives[i].count_or("mode", triangles) != triangles;
-                    known->second.first += count;
-                    known->second.second +=
+                    known->second.vertices += count;
+                    known->second.groups += 1.0;
+                    known->second.corners +=
                         (strip ? 3.0 : 1.0) *
                         (primitives[i].has("indices")
                              ? double(count_of_accessor(primitives[i]["indices"].target(root_, "accessors")))
                              : count);
                 }
             }
-            vertices += known->second.first;
-            corners += known->second.second;
+            all.vertices += known->second.vertices;
+            all.corners += known->second.corners;
+            all.groups += known->second.groups + 1.0;
         }
         constexpr double bytes_per_vertex = sizeof(Vec3d) + sizeof(Vec3) + sizeof(Vec2) + sizeof(Color);
         constexpr double bytes_per_corner = sizeof(std::uint32_t) * (1.0 + 1.0 / 3.0);
-        const double bytes = bytes_per_vertex * vertices + bytes_per_corner * corners;
+        constexpr double bytes_per_group = 1024.0; // with its names
+        const double bytes =
+            bytes_per_vertex * all.vertices + bytes_per_corner * all.corners + bytes_per_group * all.groups;
         const std::string name = file_.bytes().path().string();
         if (bytes > memory_limit())
             throw LimitError(fmt::format("{}: with all its instances, the scene takes {}, more than the limit of {}: "
                                          "raise --max-memory, or split the scene",
                                          name, bytes_text(bytes), bytes_text(memory_limit())));
         constexpr auto most = static_cast<double>(std::numeric_limits<std::uint32_t>::max());
-        if (vertices > most || corners > most)
+        if (all.vertices > most || all.corners > most)
             throw LimitError(name + ": more than 2^32 vertices or corners; split the scene");
     }
 
@@ -164,6 +179,7 @@ class GltfReader {
 
     std::vector<DecodedVertices> decode(const GltfValue& mesh) {
         std::vector<DecodedVertices> all;
+        std::unordered_map<std::string, std::size_t> by_attributes; // indices into `all`
         const GltfValue primitives = mesh["primitives"];
         for (std::size_t i = 0; i < primitives.size(); ++i) {
             const GltfValue primitive = primitives[i];
@@ -178,11 +194,10 @@ class GltfReader {
                 all.back().primitives.push_back(i);
                 continue;
             }
-            const auto same = std::find_if(all.begin(), all.end(), [&](const DecodedVertices& vertices) {
-                const GltfValue other = primitives[vertices.primitives.front()];
-                return !draco_of(other) && other["attributes"].json() == primitive["attributes"].json();
-            });
-            DecodedVertices& vertices = same != all.end() ? *same : all.emplace_back(decode_vertices(primitive));
+            const auto [same, is_new] = by_attributes.try_emplace(primitive["attributes"].json().dump(), all.size());
+            if (is_new)
+                all.push_back(decode_vertices(primitive));
+            DecodedVertices& vertices = all[same->second];
             vertices.primitives.push_back(i);
             vertices.corners.push_back(corners_of(primitive, vertices.count()));
         }
@@ -225,19 +240,22 @@ class GltfReader {
                     fmt::format("{} has {} components; export the file again", name, found->second.components));
             return std::move(found->second.floats);
         };
-        vertices.color_components = draco.attributes["COLOR_0"].components;
+        const std::size_t count = count_of_accessor(*accessor_of(root_, primitive, "POSITION"));
         vertices.positions = take("POSITION", 3, 3);
         vertices.normals = take("NORMAL", 3, 3);
-        if (vertices.color_components != 0)
-            vertices.colors = take("COLOR_0", 3, 4);
-        const std::vector<float> uvs = take("TEXCOORD_0", 2, 2);
-        for (std::size_t i = 0; i + 1 < uvs.size(); i += 2)
-            vertices.uvs.emplace_back(uvs[i], 1.0f - uvs[i + 1]);
+        if (const auto colors = draco.attributes.find("COLOR_0"); colors != draco.attributes.end())
+            vertices.color_components = colors->second.components;
+        vertices.colors = take("COLOR_0", 3, 4);
+        // Attributes that are not compressed.
+        if (vertices.normals.empty())
+            vertices.normals = floats(primitive, "NORMAL", 3, 3, count);
+        if (vertices.colors.empty())
+            vertices.colors = floats(primitive, "COLOR_0", 3, 4, count, &vertices.color_components);
+        vertices.uvs = uvs_of_primitive(file_, primitive, 0);
         if (vertices.positions.empty())
             extension.fail("has no POSITION; export the file again");
         // The values that are written refer to these vertices.
-        if (const std::size_t count = count_of_accessor(*accessor_of(root_, primitive, "POSITION"));
-            count != vertices.count())
+        if (count != vertices.count())
             extension.fail(fmt::format("has {} vertices, but POSITION has {}; export the file again",
                                        grouped(vertices.count()), grouped(count)));
         vertices.corners.push_back(std::move(draco.indices));
@@ -271,8 +289,7 @@ class GltfReader {
             document_->vertices.push_back({placement_number, vertices.primitives, first, vertices.count()});
             add_vertices(vertices, placement.to_scene);
             for (std::size_t i = 0; i < vertices.primitives.size(); ++i)
-                add_faces(vertices.corners[i], first, placement_number,
-                          mesh_value(placement.mesh)["primitives"][vertices.primitives[i]]);
+                add_faces(vertices.corners[i], first, placement_number, vertices.primitives[i]);
         }
     }
 
@@ -317,10 +334,11 @@ class GltfReader {
     }
 
     void add_faces(const std::vector<std::uint32_t>& corners, std::size_t first_vertex, std::size_t placement_number,
-                   const GltfValue& primitive) {
+                   std::size_t primitive_number) {
         if (corners.empty())
             return;
         const GltfPlacement& placement = document_->placements[placement_number];
+        const GltfValue primitive = mesh_value(placement.mesh)["primitives"][primitive_number];
         const std::size_t first_face = mesh_.face_count();
         const bool mirrored = glm::determinant(glm::dmat3(placement.to_scene)) < 0.0;
         const std::size_t first_corner = mesh_.corners.size();
@@ -340,12 +358,12 @@ class GltfReader {
             const GltfValue material = primitive["material"].target(root_, "materials");
             material_number = primitive["material"].count();
             if (material.has("name"))
-                group.names.push_back(material["name"].text());
+                group.names.push_back(material["name"].text().substr(0, FaceGroup::most_letters));
             group.see_through = material.text_or("alphaMode", "OPAQUE") != "OPAQUE";
             color = base_color(material);
         }
         mesh_.groups.push_back(std::move(group));
-        document_->group_primitives.push_back({placement_number, material_number});
+        document_->group_primitives.push_back({placement_number, primitive_number, material_number});
         constexpr Color white{255, 255, 255, 255};
         if (color != white || !mesh_.face_colors.empty()) {
             mesh_.face_colors.resize(first_face, white);
@@ -435,11 +453,11 @@ std::vector<Vec2> uvs_of_primitive(GltfFile& file, const GltfValue& primitive, s
     if (!value)
         return {};
     const GltfAccessor accessor(file, *value, 2, 2);
-    const std::vector<float> floats = accessor.floats();
     const std::size_t count = count_of_accessor(*accessor_of(file.root(), primitive, "POSITION"));
     if (accessor.count() != count)
         value->fail(fmt::format("{} has {} elements, but POSITION has {}; export the file again", name,
                                 grouped(accessor.count()), grouped(count)));
+    const std::vector<float> floats = accessor.floats();
     std::vector<Vec2> uvs(count);
     for (std::size_t i = 0; i < uvs.size(); ++i)
         uvs[i] = {floats[2 * i], 1.0f - floats[2 * i + 1]};
@@ -466,11 +484,14 @@ std::string_view GltfDocument::comment(std::string_view beginning) const {
 }
 
 std::vector<Vec2> GltfDocument::uv_set(std::size_t number) const {
-    const std::lock_guard lock(mutex_);
     std::vector<Vec2> uvs(vertex_count(), Vec2(0.0f));
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<Vec2>> known; // by mesh and primitive
     for (const GltfVertices& block : vertices) {
-        const GltfValue mesh = file->root()["meshes"][placements[block.placement].mesh];
-        const std::vector<Vec2> own = uvs_of_primitive(*file, mesh["primitives"][block.primitives.front()], number);
+        const std::size_t mesh = placements[block.placement].mesh, primitive = block.primitives.front();
+        const auto [found, is_new] = known.try_emplace({mesh, primitive});
+        if (is_new)
+            found->second = uvs_of_primitive(*file, file->root()["meshes"][mesh]["primitives"][primitive], number);
+        const std::vector<Vec2>& own = found->second;
         std::copy(own.begin(), own.end(), uvs.begin() + static_cast<std::ptrdiff_t>(block.first));
     }
     return uvs;

@@ -2,6 +2,7 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/formats/gltf/gltf_accessor.h"
+#include "alcove/mesh/mesh.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
@@ -78,7 +79,7 @@ std::vector<glm::dmat4> instances_of(GltfFile& file, const GltfValue& attributes
         const GltfValue index = attributes[name];
         const GltfAccessor accessor(file, index.target(file.root(), "accessors"), components, components);
         if (count != 0 && count != accessor.count())
-            index.fail("has another count than the other attributes of the instances; export the file again");
+            index.fail("has a different count from the other instance attributes; export the file again");
         count = accessor.count();
         if (count > max_instances)
             throw LimitError(fmt::format("{}: {}: {} instances are more than {}; split the scene",
@@ -118,6 +119,7 @@ class SceneReader {
         const GltfValue nodes = root_["nodes"];
         find_parents(nodes);
         find_transforms(nodes);
+        find_visible(nodes);
         for (const std::size_t node : visited_)
             add(nodes[node], node);
         return std::move(placements_);
@@ -156,10 +158,26 @@ class SceneReader {
         return first;
     }
 
-    /// Visits each node of the scene once: a node has one parent, so only a cycle could repeat one, and no root node
-    /// leads into a cycle. A scene may list a node twice, or below another one.
+    /// Of all nodes that are not in a cycle, from the roots on.
     void find_transforms(const GltfValue& nodes) {
         transforms_.assign(parents_.size(), glm::dmat4(1.0));
+        std::vector<std::size_t> to_visit;
+        for (std::size_t n = 0; n < parents_.size(); ++n)
+            if (parents_[n] == none)
+                to_visit.push_back(n);
+        while (!to_visit.empty()) {
+            const std::size_t n = to_visit.back();
+            to_visit.pop_back();
+            const glm::dmat4 local = local_transform(nodes[n]);
+            transforms_[n] = parents_[n] == none ? local : transforms_[parents_[n]] * local;
+            if (!is_finite(transforms_[n]))
+                nodes[n].fail("its transform is not finite; export the file again");
+            for_each_child(nodes[n], [&](std::size_t child) { to_visit.push_back(child); });
+        }
+    }
+
+    /// The nodes of the scene, depth first. A scene may list a node twice, or below another one.
+    void find_visible(const GltfValue& nodes) {
         std::vector<char> seen(parents_.size(), 0);
         std::vector<std::size_t> to_visit = first_nodes();
         std::reverse(to_visit.begin(), to_visit.end());
@@ -169,24 +187,29 @@ class SceneReader {
             if (std::exchange(seen[n], 1))
                 continue;
             visited_.push_back(n);
-            const glm::dmat4 local = local_transform(nodes[n]);
-            transforms_[n] = parents_[n] == none || !seen[parents_[n]] ? local : transforms_[parents_[n]] * local;
-            if (!is_finite(transforms_[n]))
-                nodes[n].fail("its transform is not finite; export the file again");
-            if (const std::optional<GltfValue> children = nodes[n].find("children"))
-                for (std::size_t c = children->size(); c-- > 0;)
-                    to_visit.push_back((*children)[c].index(parents_.size()));
+            const std::size_t old = to_visit.size();
+            for_each_child(nodes[n], [&](std::size_t child) { to_visit.push_back(child); });
+            std::reverse(to_visit.begin() + static_cast<std::ptrdiff_t>(old), to_visit.end());
         }
     }
 
+    template <class F>
+    void for_each_child(const GltfValue& node, const F& f) const {
+        if (const std::optional<GltfValue> children = node.find("children"))
+            for (std::size_t c = 0; c < children->size(); ++c)
+                f((*children)[c].index(parents_.size()));
+    }
+
+    /// Long names and deep trees would take memory for every instance.
     std::vector<std::string> names_of(std::size_t node, const GltfValue& mesh) const {
+        constexpr std::size_t most_ancestors = 16;
         std::vector<std::string> names;
         const GltfValue nodes = root_["nodes"];
-        for (std::size_t n = node, steps = 0; n != none && steps <= parents_.size(); n = parents_[n], ++steps)
+        for (std::size_t n = node, steps = 0; n != none && steps <= most_ancestors; n = parents_[n], ++steps)
             if (nodes[n].has("name"))
-                names.push_back(nodes[n]["name"].text());
+                names.push_back(nodes[n]["name"].text().substr(0, FaceGroup::most_letters));
         if (mesh.has("name"))
-            names.push_back(mesh["name"].text());
+            names.push_back(mesh["name"].text().substr(0, FaceGroup::most_letters));
         return names;
     }
 
@@ -215,6 +238,8 @@ class SceneReader {
                                              file_.bytes().path().string(), grouped(max_instances)));
             placements_.push_back(placement);
             placements_.back().to_scene = placement.to_scene * instance;
+            if (!is_finite(placements_.back().to_scene))
+                node.fail("the transform of an instance is not finite; export the file again");
         }
     }
 

@@ -70,7 +70,7 @@ bool GltfValue::flag() const {
 
 const std::string& GltfValue::text() const {
     if (!json_->is_string())
-        fail("is not a text; export the file again");
+        fail("is not a string; export the file again");
     return json_->get_ref<const std::string&>();
 }
 

@@ -43,7 +43,7 @@ class GltfValue {
     /// The value of a key, or `missing` if there is none.
     std::size_t count_or(const char* key, std::size_t missing) const;
     std::string text_or(const char* key, std::string_view missing) const;
-    /// The element of the root's array `array` that the index `(*this)[key]` refers to.
+    /// The element of the root's array `array` that this index refers to.
     GltfValue target(const GltfValue& root, const char* array) const;
 
   private:

@@ -2,15 +2,18 @@
 
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/detail/srgb.h"
+#include "alcove/mesh/files.h"
 #include "alcove/mesh/normals.h"
 
 #include <fmt/format.h>
 #include <glm/mat3x3.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace alcove {
 namespace {
@@ -25,7 +28,13 @@ struct Instance {
 struct InstanceValues {
     std::vector<std::vector<float>> attributes;
     std::vector<Color> colors;
+    double mean = 0.0; ///< of the first attribute
 };
+
+double mean_of(const std::vector<float>& values) {
+    return values.empty() ? 0.0
+                          : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 /// An RMSE relative to the range of the values.
 double difference(const std::vector<float>& a, const std::vector<float>& b, double range) {
@@ -40,13 +49,26 @@ class ValueWriter {
     ValueWriter(GltfOutput& output, const GltfDocument& document, const Mesh& mesh)
         : output_(output), document_(document), mesh_(mesh) {
         for (const Attribute& attribute : mesh.attributes)
-            if (attribute.name != "quality") { // for MeshLab, the same as ao
+            if (attribute.components > 4) {
+                messages_.push_back("not stored in glTF: attribute " + in_quotes(attribute.name) +
+                                    ", which has more than four components");
+            } else if (attribute.name != "quality") { // for MeshLab, the same as ao
                 attributes_.push_back(&attribute);
                 double range = 1.0;
                 if (attribute.name == "thickness")
                     range = *std::max_element(attribute.values.begin(), attribute.values.end());
                 ranges_.push_back(range);
             }
+        if (colors_are_ao(mesh))
+            for (std::size_t i = 0; i < attributes_.size(); ++i)
+                if (attributes_[i]->name == "ao")
+                    greys_from_ = i;
+        made_before_ =
+            std::any_of(mesh.added_comments.begin(), mesh.added_comments.end(), [&](const std::string& comment) {
+                return !document.comment(comment.substr(0, comment.find(' ') + 1)).empty();
+            });
+        if (made_before_)
+            count_uses();
         blocks_of_.resize(document.placements.size());
         for (std::size_t b = 0; b < document.vertices.size(); ++b)
             blocks_of_[document.vertices[b].placement].push_back(b);
@@ -103,10 +125,34 @@ class ValueWriter {
                 to_node(sums, glm::dmat4(1.0));
             values.attributes.push_back(std::move(sums));
         }
+        values.mean = values.attributes.empty() ? 0.0 : mean_of(values.attributes.front());
         if (!mesh_.added_colors.empty())
-            for (const std::size_t b : blocks_of_[instance.placements.front()])
-                append(values.colors, mesh_.added_colors, 1, b);
+            values.colors = colors_of(instance);
         return values;
+    }
+
+    /// The mean over the placements in linear light.
+    std::vector<Color> colors_of(const Instance& instance) const {
+        std::vector<Color> colors;
+        std::vector<glm::vec4> sums;
+        for (const std::size_t p : instance.placements) {
+            colors.clear();
+            for (const std::size_t b : blocks_of_[p])
+                append(colors, mesh_.added_colors, 1, b);
+            if (instance.placements.size() == 1)
+                return colors;
+            sums.resize(colors.size(), glm::vec4(0.0f));
+            for (std::size_t v = 0; v < colors.size(); ++v)
+                for (int c = 0; c < 4; ++c) {
+                    const double byte = colors[v][static_cast<std::size_t>(c)] / 255.0;
+                    sums[v][c] += static_cast<float>(c < 3 ? decode_srgb(byte) : byte);
+                }
+        }
+        for (std::size_t v = 0; v < colors.size(); ++v) {
+            const glm::vec4 mean = sums[v] / static_cast<float>(instance.placements.size());
+            colors[v] = srgb_color(Vec3(mean), mean.a);
+        }
+        return colors;
     }
 
     template <class T>
@@ -126,8 +172,9 @@ class ValueWriter {
     }
 
     double difference_of(const InstanceValues& a, const InstanceValues& b) const {
-        double largest = 0.0;
-        for (std::size_t i = 0; i < attributes_.size(); ++i)
+        // The RMSE is at least the difference of the means.
+        double largest = ranges_.empty() || ranges_[0] == 0.0 ? 0.0 : std::fabs(a.mean - b.mean) / ranges_[0];
+        for (std::size_t i = 0; i < attributes_.size() && largest <= mesh_.instance_error; ++i)
             largest = std::max(largest, difference(a.attributes[i], b.attributes[i], ranges_[i]));
         return largest;
     }
@@ -170,39 +217,71 @@ class ValueWriter {
             const GltfVertices& vertices = document_.vertices[b];
             Json& primitives = output_.json()["meshes"][mesh]["primitives"];
             const auto set = [&](const std::string& name, std::size_t accessor) {
-                for (const std::size_t p : vertices.primitives)
+                for (const std::size_t p : vertices.primitives) {
                     primitives[p]["attributes"][name] = accessor;
+                    // Or else programs would read the old values.
+                    if (const auto draco = Json::json_pointer("/extensions/KHR_draco_mesh_compression/attributes");
+                        primitives[p].contains(draco))
+                        primitives[p][draco].erase(name);
+                }
+            };
+            // The accessor of an earlier bake, unless others have it too, such as a copy made now.
+            const auto earlier = [&](const std::string& name) -> std::optional<std::size_t> {
+                const Json& attributes = primitives[vertices.primitives.front()]["attributes"];
+                if (!made_before_ || mesh >= document_.file->root()["meshes"].size() || !attributes.contains(name) ||
+                    uses_.at(attributes[name]) > vertices.primitives.size())
+                    return {};
+                return attributes[name].get<std::size_t>();
             };
             for (std::size_t i = 0; i < attributes_.size(); ++i) {
                 const auto components = static_cast<std::size_t>(attributes_[i]->components);
                 const std::string name = gltf_attribute_name(attributes_[i]->name);
+                const auto own =
+                    std::span(values.attributes[i]).subspan(first * components, vertices.count * components);
+                constexpr int float32 = 5126;
+                if (const std::optional<std::size_t> old = earlier(name);
+                    old &&
+                    output_.overwrite(*old, float32, {reinterpret_cast<const char*>(own.data()), own.size_bytes()}))
+                    continue;
                 if (primitives[vertices.primitives.front()]["attributes"].contains(name))
                     ++replaced_[name];
-                set(name, output_.add_floats(
-                              std::span(values.attributes[i]).subspan(first * components, vertices.count * components),
-                              components));
+                set(name, output_.add_floats(own, components));
             }
-            if (!values.colors.empty())
-                set("COLOR_0", output_.add_colors(linear_colors(std::span(values.colors).subspan(first, vertices.count),
-                                                                mesh_.added_encoding)));
+            if (greys_from_ || !values.colors.empty()) {
+                const auto colors =
+                    greys_from_
+                        ? linear_greys(std::span(values.attributes[*greys_from_]).subspan(first, vertices.count))
+                        : linear_colors(std::span(values.colors).subspan(first, vertices.count), mesh_.added_encoding);
+                constexpr int uint16 = 5123;
+                const std::string_view bytes(reinterpret_cast<const char*>(colors.data()),
+                                             colors.size() * sizeof(colors[0]));
+                if (const std::optional<std::size_t> old = earlier("COLOR_0");
+                    !old || !output_.overwrite(*old, uint16, bytes))
+                    set("COLOR_0", output_.add_colors(colors));
+            }
             first += vertices.count;
         }
     }
 
+    /// How many primitives of the file have each accessor as an attribute.
+    void count_uses() {
+        for (const Json& mesh : document_.file->root().json()["meshes"])
+            for (const Json& primitive : mesh["primitives"])
+                for (const Json& accessor : primitive["attributes"])
+                    ++uses_[accessor];
+    }
+
     void report() {
         if (copied_ > 0)
-            messages_.push_back(counted(copied_, "instance has", "instances have") +
-                                " got a copy of the mesh, because the values differ from those of other instances");
+            messages_.push_back(
+                counted(copied_, "instance received", "instances received") +
+                " their own copy of the mesh, because their values differ from those of other instances");
         if (shared_ > 0)
             messages_.push_back(fmt::format("{} the values of another instance of the same mesh; they differ by an "
                                             "RMSE of at most {:.2g}",
                                             counted(shared_, "instance shares", "instances share"), largest_shared_));
         for (const auto& [name, count] : replaced_) {
-            const bool made_before =
-                std::any_of(mesh_.added_comments.begin(), mesh_.added_comments.end(), [&](const std::string& comment) {
-                    return !document_.comment(comment.substr(0, comment.find(' ') + 1)).empty();
-                });
-            if (!made_before)
+            if (!made_before_)
                 messages_.push_back("the attribute " + in_quotes(name) + " of the input is replaced");
         }
     }
@@ -212,7 +291,10 @@ class ValueWriter {
     const Mesh& mesh_;
     std::vector<const Attribute*> attributes_;
     std::vector<double> ranges_;
+    std::optional<std::size_t> greys_from_;           ///< the attribute that COLOR_0 shows
     std::vector<std::vector<std::size_t>> blocks_of_; ///< indices into GltfDocument::vertices, by placement
+    bool made_before_ = false;                        ///< whether an earlier bake made values in the file
+    std::map<std::size_t, std::size_t> uses_;
     std::map<std::string, std::size_t> replaced_;
     std::size_t copied_ = 0, shared_ = 0;
     double largest_shared_ = 0.0;
@@ -242,6 +324,23 @@ std::vector<std::array<std::uint16_t, 4>> linear_colors(std::span<const Color> c
     for (const Color& c : colors)
         values.push_back({linear[c[0]], linear[c[1]], linear[c[2]], raw[c[3]]});
     return values;
+}
+
+bool colors_are_ao(const Mesh& mesh) {
+    const Attribute* ao = mesh.find_attribute("ao");
+    return ao != nullptr && ao->components == 1 && !mesh.added_colors.empty() &&
+           mesh.added_colors == grey_colors(ao->values, mesh.added_encoding);
+}
+
+std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> values) {
+    constexpr float most = 65535.0f;
+    std::vector<std::array<std::uint16_t, 4>> greys;
+    greys.reserve(values.size());
+    for (const float value : values) {
+        const auto grey = static_cast<std::uint16_t>(std::lround(most * std::clamp(value, 0.0f, 1.0f)));
+        greys.push_back({grey, grey, grey, static_cast<std::uint16_t>(most)});
+    }
+    return greys;
 }
 
 std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh) {

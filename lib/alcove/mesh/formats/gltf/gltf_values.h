@@ -16,6 +16,11 @@ std::string gltf_attribute_name(std::string_view name);
 /// Linear colours of 16 bits.
 std::vector<std::array<std::uint16_t, 4>> linear_colors(std::span<const Color> colors, ColorEncoding encoding);
 
+/// Whether the added colours are the attribute `ao`, so that COLOR_0 can be computed from that without rounding to bytes.
+bool colors_are_ao(const Mesh& mesh);
+/// One grey per value.
+std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> values);
+
 /// Adds the attributes and colours of `mesh`. Instances of one glTF mesh share values that differ by an RMSE of at most
 /// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about that, and what is replaced.
 std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh);

@@ -67,6 +67,9 @@ SplitVertices split(const Mesh& mesh) {
 class GltfMaker {
   public:
     GltfMaker(GltfOutput& output, const Mesh& mesh) : output_(output), mesh_(mesh), vertices_(split(mesh)) {
+        if (mesh.face_count() == 0)
+            throw InputError((mesh.name.empty() ? "" : mesh.name + ": ") +
+                             "points are not written as glTF: write a .ply");
         if (vertices_.triangles.empty())
             throw InputError((mesh.name.empty() ? "" : mesh.name + ": ") +
                              "no face can be stored in glTF: each has fewer than three different corners, or a corner "
@@ -83,16 +86,22 @@ class GltfMaker {
         add_normals(attributes);
         add_uvs(attributes);
         for (const Attribute& attribute : mesh_.attributes)
-            if (attribute.name != "quality" && attribute.components <= 4) {
+            if (attribute.components > 4) {
+                lost_.push_back("not stored in glTF: attribute " + in_quotes(attribute.name) +
+                                ", which has more than four components");
+            } else if (attribute.name != "quality") {
                 const auto components = static_cast<std::size_t>(attribute.components);
                 attributes[gltf_attribute_name(attribute.name)] =
                     output_.add_floats(gathered(attribute.values, components), components);
             }
         const bool adds = !mesh_.added_colors.empty();
-        if (const std::vector<Color>& colors = adds ? mesh_.added_colors : mesh_.vertex_colors; !colors.empty())
+        if (colors_are_ao(mesh_))
+            attributes["COLOR_0"] = output_.add_colors(linear_greys(gathered(mesh_.find_attribute("ao")->values, 1)));
+        else if (const std::vector<Color>& colors = adds ? mesh_.added_colors : mesh_.vertex_colors; !colors.empty())
             attributes["COLOR_0"] = output_.add_colors(
                 linear_colors(gathered(colors, 1), adds ? mesh_.added_encoding : ColorEncoding::srgb));
-        json["meshes"].push_back({{"primitives", primitives(attributes)}});
+        Json made = primitives(attributes); // adds materials, which moves the arrays of the root
+        json["meshes"].push_back({{"primitives", std::move(made)}});
         return std::move(lost_);
     }
 
@@ -188,7 +197,9 @@ class GltfMaker {
             constexpr std::array<float, 4> white{1.0f, 1.0f, 1.0f, 1.0f};
             materials.resize(mesh_.face_count(), {"", white});
             for (std::size_t i = 0; i < obj->material_uses.size(); ++i)
-                for (std::size_t f = obj->material_uses[i].first_face; f < materials.size(); ++f)
+                for (std::size_t f = obj->material_uses[i].first_face;
+                     f < (i + 1 < obj->material_uses.size() ? obj->material_uses[i + 1].first_face : materials.size());
+                     ++f)
                     materials[f].name = obj->material_uses[i].name;
             for (std::size_t f = 0; f < materials.size(); ++f)
                 if (const std::optional<Vec3>& kd = read.diffuse[f])
@@ -254,26 +265,36 @@ Json reference(std::size_t texture, int uv_set) {
     return reference;
 }
 
-/// Gives all primitives without a material that one.
-void set_material(Json& json, std::size_t material) {
-    for (Json& mesh : json["meshes"])
-        for (Json& primitive : mesh["primitives"])
-            if (!primitive.contains("material"))
-                primitive["material"] = material;
-}
-
-std::size_t add_material(Json& json) {
-    json["materials"].push_back(Json::object());
+/// Appends a material.
+std::size_t add_material(Json& json, Json material = Json::object()) {
+    json["materials"].push_back(std::move(material));
     return json["materials"].size() - 1;
 }
 
-/// Whether the material had another occlusion texture.
-bool add_texture(GltfOutput& output, const GltfTexture& texture) {
+/// How many primitives of the file have that material; none: no material.
+std::size_t count_uses(const GltfValue& root, const std::optional<std::size_t>& material) {
+    std::size_t uses = 0;
+    const GltfValue meshes = root["meshes"];
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const GltfValue primitives = meshes[m]["primitives"];
+        for (std::size_t p = 0; p < primitives.size(); ++p)
+            uses +=
+                primitives[p].has("material") ? material && primitives[p]["material"].count() == *material : !material;
+    }
+    return uses;
+}
+
+/// Gives the primitives of a texture its material, or a copy of it if others have it too. \return whether it had another
+/// occlusion texture.
+bool add_texture(GltfOutput& output, const GltfValue& root, const GltfTexture& texture) {
     Json& json = output.json();
     const std::size_t number = add_image(output, texture);
-    const std::size_t material = texture.material ? *texture.material : add_material(json);
-    if (!texture.material)
-        set_material(json, material);
+    std::size_t material = texture.material.value_or(0);
+    if (!texture.material || count_uses(root, texture.material) > texture.primitives.size()) {
+        material = add_material(json, texture.material ? Json(json["materials"][*texture.material]) : Json::object());
+        for (const auto& [mesh, primitive] : texture.primitives)
+            json["meshes"][mesh]["primitives"][primitive]["material"] = material;
+    }
     Json& occlusion = json["materials"][material]["occlusionTexture"];
     const bool replaces = !occlusion.is_null();
     occlusion = reference(number, texture.uv_set);
@@ -283,27 +304,24 @@ bool add_texture(GltfOutput& output, const GltfTexture& texture) {
 void add_texture_to_all(GltfOutput& output, const GltfTexture& texture) {
     Json& json = output.json();
     const std::size_t number = add_image(output, texture);
-    if (!json.contains("materials"))
-        set_material(json, add_material(json));
+    if (!json.contains("materials")) {
+        const std::size_t material = add_material(json);
+        for (Json& primitive : json["meshes"][0]["primitives"])
+            primitive["material"] = material;
+    }
     for (Json& material : json["materials"])
         material["occlusionTexture"] = reference(number, texture.uv_set);
 }
 
-}
-
-std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
-    return write_gltf(mesh, file, {});
-}
-
-std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
-                                    std::span<const GltfTexture> textures) {
+std::vector<std::string> write_checked(const Mesh& mesh, const std::filesystem::path& file,
+                                       std::span<const GltfTexture> textures) {
     const auto* document = dynamic_cast<const GltfDocument*>(mesh.source.get());
     std::vector<std::string> messages;
     if (document != nullptr && document->vertex_count() == mesh.vertex_count()) {
         GltfOutput output(file, *document->file);
         messages = add_values(output, *document, mesh);
         for (const GltfTexture& texture : textures)
-            if (add_texture(output, texture))
+            if (add_texture(output, document->file->root(), texture))
                 messages.push_back("the occlusion texture of the input is replaced");
         add_comments(output.json(), mesh);
         output.write();
@@ -322,6 +340,21 @@ std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::pat
     add_comments(output.json(), mesh);
     output.write();
     return messages;
+}
+
+}
+
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file) {
+    return write_gltf(mesh, file, {});
+}
+
+std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
+                                    std::span<const GltfTexture> textures) {
+    try {
+        return write_checked(mesh, file, textures);
+    } catch (const Json::exception& error) { // of parts that reading does not look at
+        throw InputError(fmt::format("{}: its JSON is not valid glTF: {}; export it again", mesh.name, error.what()));
+    }
 }
 
 }

@@ -7,12 +7,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace alcove {
 
 struct GltfTexture {
     std::optional<std::size_t> material; ///< of the file that the mesh was read from; empty: of primitives without one
+    /// The primitives that show it: meshes of the file, and primitives in them.
+    std::vector<std::pair<std::size_t, std::size_t>> primitives;
     int uv_set = 0;
     std::string png; ///< the bytes of the image
 };

@@ -63,7 +63,9 @@ class ObjReader {
 
     void read_other(std::string_view keyword) {
         if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
-            (keyword == "o" ? object_ : keyword == "g" ? group_ : material_) = rest_of_line();
+            (keyword == "o"   ? object_
+             : keyword == "g" ? group_
+                              : material_) = rest_of_line().substr(0, FaceGroup::most_letters);
             starts_group_ = true;
         }
         if (keyword == "usemtl")
