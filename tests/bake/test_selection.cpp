@@ -66,6 +66,14 @@ TEST(Selection, GridMethodsFollowItToo) {
         EXPECT_LT(values[v], 0.9f);
 }
 
+TEST(Selection, PointsReferToTheFacesOfTheWholeMesh) {
+    const Mesh mesh = floor_and_lid();
+    const SurfacePoint on_lid{{0.5, 0.5, 0.5}, {0, 0, -1}, 1};
+    EXPECT_EQ(bake(mesh, std::span(&on_lid, 1), {.radius = "inf", .method = "exact", .faces = {.exclude = {"floor"}}})
+                  .ao()[0],
+              1.0f);
+}
+
 TEST(Selection, NamesThatMatchNothingAreRefused) {
     const auto refusal = [](const Mesh& mesh, const FaceSelection& faces) {
         try {

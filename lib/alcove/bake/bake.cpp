@@ -121,6 +121,8 @@ PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<s
     }
     prepared.triangles = occluding_triangles(mesh, prepared);
     prepared.frame = frame_of(prepared.mesh().box());
+    if (prepared.triangles.empty() && !options.faces.no_occlude.empty())
+        throw InputError("--no-occlude and --opaque-only leave no face that occludes: name fewer parts");
     if (!has_area(prepared)) // voxelize() finds out too, but rays do not
         throw InputError("the mesh has no face with nonzero area: there is no surface to occlude anything");
     prepared.voxelizing = voxelizing_of(options, prepared.frame);
@@ -156,7 +158,7 @@ std::vector<Surfel> surfels_of_vertices(const PreparedMesh& prepared, NormalSour
 }
 
 std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, std::span<const SurfacePoint> points) {
-    const Mesh& mesh = prepared.mesh();
+    const Mesh& mesh = *prepared.whole; // whose faces the points refer to
     std::vector<Surfel> surfels;
     surfels.reserve(points.size());
     for (const SurfacePoint& point : points) {
@@ -311,12 +313,15 @@ Baked bake_on_surface(const Mesh& mesh, std::span<const SurfacePoint> points, co
 Baked bake_points(const Mesh& mesh, const BakeOptions& options) {
     const ThreadLimit limit(options.threads);
     check(options);
+    if (options.self || options.weld)
+        throw InputError(named(mesh, "--self and --weld are for meshes, but these are points: leave them out"));
+    if (options.grid)
+        throw InputError(named(mesh, "--grid is for meshes: the surface of points is reconstructed in each bake"));
     // Detail that is small compared with the radius hardly changes its occlusion.
     constexpr float voxels_per_radius = 48.0f, large_radius = 0.25f;
     const float radius = radius_of(options, frame_of(mesh.box()), {});
-    const PointSurface surface = surface_of_points(
-        mesh,
-        {options.point_size, std::max(std::min(radius, large_radius) / voxels_per_radius, PointOptions{}.least_voxel)});
+    const PointSurface surface =
+        surface_of_points(mesh, {options.point_size, std::min(radius, large_radius) / voxels_per_radius});
     std::vector<SurfacePoint> points(mesh.vertex_count());
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = {surface.positions[i], surface.normals[i], surface.faces[i]};
@@ -417,6 +422,10 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
     // The `quality` of an earlier bake is out of date.
     const bool rated =
         colored || (!baked.ao().empty() && has_property(mesh, "quality") && names_value(earlier_bake(mesh), "quality"));
+    if (colored && options.color == ColorUse::multiply && !mesh.vertex_colors.empty() && !earlier_bake(mesh).empty())
+        mesh.warnings.emplace_back(
+            "an earlier bake may have made the vertex colours or multiplied them already: multiply "
+            "those of the original file");
     if (colored) {
         mesh.added_colors = options.color == ColorUse::multiply ? multiplied(mesh, baked.ao())
                                                                 : grey_colors(baked.ao(), options.encoding);

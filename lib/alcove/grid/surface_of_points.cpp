@@ -7,11 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace alcove {
 namespace {
 
-constexpr float voxels_per_spacing = 0.9f;
+constexpr float voxels_per_spacing = 0.9f, most_voxels_per_spacing = 3.0f;
 
 std::vector<std::string> warnings_of(const PointCloud& cloud) {
     std::vector<std::string> warnings;
@@ -32,6 +33,33 @@ std::vector<std::string> warnings_of(const PointCloud& cloud) {
     return warnings;
 }
 
+/// Warns of points that are much denser than the voxel, which cannot show their surface.
+void warn_of_detail(const PointCloud& cloud, float voxel, std::vector<std::string>& warnings) {
+    constexpr float dense = 0.125f;        // spacings per voxel
+    constexpr float least_spacing = 2e-6f; // floats in unit space do not resolve less
+    const auto lost =
+        static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(),
+                                               [&](const CloudPoint& point) { return point.spacing < dense * voxel; }));
+    constexpr std::size_t few = 100;
+    if (cloud.spacing < least_spacing)
+        warnings.emplace_back(
+            "the points are so far apart, compared with their spacing, that their positions are rounded: "
+            "bake the parts of the scene one at a time");
+    else if (lost > cloud.points.size() / few)
+        warnings.push_back(fmt::format("{} much closer together than the others, and detail of that size is lost: bake "
+                                       "them on their own, or give a smaller --point-size",
+                                       counted(lost, "point is", "points are")));
+}
+
+void warn_of_size(const PointCloud& cloud, float size, std::vector<std::string>& warnings) {
+    constexpr float far_off = 5.0f;
+    if (size > far_off * cloud.spacing || size < cloud.spacing / far_off)
+        warnings.push_back(
+            fmt::format("--point-size is {:.2g} times the distance between neighbouring points, which is "
+                        "{:.2g} of the diagonal: leave it out, or give about that",
+                        size / cloud.spacing, cloud.spacing));
+}
+
 }
 
 PointSurface surface_of_points(const Mesh& points, const PointOptions& options) {
@@ -45,12 +73,18 @@ PointSurface surface_of_points(const Mesh& points, const PointOptions& options) 
     } catch (const InputError& error) {
         fail(error.what());
     }
+    if (options.point_size && !std::isfinite(options.point_size->value))
+        fail("--point-size takes a finite length: write 0.2 (scene units) or 0.1%");
+    std::vector<std::string> warnings = warnings_of(cloud);
     if (options.point_size) {
+        warn_of_size(cloud, options.point_size->to_unit(frame.diagonal), warnings);
         cloud.spacing = options.point_size->to_unit(frame.diagonal);
         for (CloudPoint& point : cloud.points)
             point.spacing = cloud.spacing;
     }
-    const PointField field(cloud, std::max(voxels_per_spacing * cloud.spacing, options.least_voxel));
+    const float voxel =
+        std::clamp(options.least_voxel, voxels_per_spacing * cloud.spacing, most_voxels_per_spacing * cloud.spacing);
+    const PointField field(cloud, voxel);
     PointSurface result;
     result.mesh = field.surface();
     if (result.mesh.face_count() == 0)
@@ -58,7 +92,6 @@ PointSurface surface_of_points(const Mesh& points, const PointOptions& options) 
     for (Vec3d& p : result.mesh.positions)
         p = p * frame.diagonal + frame.center;
     result.mesh.name = points.name;
-    result.mesh.warnings = warnings_of(cloud);
     result.positions.assign(points.vertex_count(), Vec3d(0.0));
     result.normals.assign(points.vertex_count(), Vec3(0.0f));
     result.faces.assign(points.vertex_count(), 0);
@@ -70,6 +103,16 @@ PointSurface surface_of_points(const Mesh& points, const PointOptions& options) 
                 result.normals[cloud.points[i].source] = cloud.points[i].normal;
             }
     });
+    const auto lost =
+        static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(), [&](const CloudPoint& point) {
+            return result.normals[point.source] == Vec3(0.0f);
+        }));
+    constexpr std::size_t few = 100; // one of a hundred is no news: borders and corners
+    if (lost > cloud.points.size() / few)
+        warnings.push_back(counted(lost, "point has", "points have") +
+                           " no surface and got ao = 1: their neighbours are too far away; give a larger --point-size");
+    warn_of_detail(cloud, voxel, warnings);
+    result.mesh.warnings = std::move(warnings);
     for (const auto& [point, other] : cloud.duplicates) {
         result.positions[point] = result.positions[other];
         result.normals[point] = result.normals[other];

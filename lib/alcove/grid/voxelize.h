@@ -80,8 +80,9 @@ Mesh mesh_zero_surface(const Sampler& sample, float voxel);
 
 struct PointOptions {
     std::optional<Length> point_size{}; ///< distance between neighbouring points; empty: measured
-    /// The smallest voxel of the reconstruction, unit space. It is otherwise 0.9 times the point size.
-    float least_voxel = 1.0f / 1024.0f;
+    /// The voxel of the reconstruction need not be smaller than this, unit space. It is otherwise 0.9 times the point
+    /// size, and never more than 3 times.
+    float least_voxel = 0.0f;
 };
 
 /// The surface of points.

@@ -44,6 +44,7 @@ void check(const BakeOptions& options) {
                         parameter_of(named_method(options).samples_are)));
     require(options.pilot || is_fixed(options),
             "--no-pilot needs a --method without --error: the planner needs the pilot");
+    require(options.radius.value > 0.0, "--radius takes a positive length, such as 0.2 (scene units), 10% or inf");
     require(options.up != Vec3d(0.0), "--up takes a direction, not 0,0,0: use 0,1,0 or 0,0,1");
     require(!options.time_limit || *options.time_limit > 0.0, "--time-limit takes a number of seconds above 0");
     require(!options.voxel || options.voxel->unit != Length::Unit::voxels,
@@ -52,6 +53,9 @@ void check(const BakeOptions& options) {
             "--voxel takes a finite length: write 0.2 (scene units) or 0.5%");
     require(!options.weld || (options.weld->unit != Length::Unit::voxels && std::isfinite(options.weld->value)),
             "--weld takes a finite length: write 0.2 (scene units) or 0.001%");
+    require(!options.point_size ||
+                (options.point_size->unit != Length::Unit::voxels && std::isfinite(options.point_size->value)),
+            "--point-size takes a finite length: write 0.2 (scene units) or 0.1%");
     require(options.radius.unit != Length::Unit::voxels || options.voxel || options.grid,
             "--radius in vx needs a voxel of known size: give --voxel as 0.2 (scene units) or 0.5%");
     require(!options.grid || (!options.voxel && options.sign == SignChoice::automatic),

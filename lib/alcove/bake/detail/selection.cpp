@@ -32,9 +32,10 @@ void for_each_match(const Mesh& mesh, const std::vector<std::string>& patterns, 
         for (const FaceGroup& group : mesh.groups)
             names.insert(group.names.begin(), group.names.end());
         if (names.empty())
-            throw InputError(fmt::format("{} {}: the mesh has no named parts; nodes, meshes and materials of glTF and "
-                                         "groups and materials of OBJ have names",
-                                         option, in_quotes(pattern)));
+            throw InputError(
+                fmt::format("{} {}: the mesh has no named parts; only glTF nodes, meshes and materials, and "
+                            "OBJ objects, groups and materials have names",
+                            option, in_quotes(pattern)));
         const std::string nearest = nearest_name(pattern, {names.begin(), names.end()});
         throw InputError(fmt::format("{} {} matches no name; {} {}", option, in_quotes(pattern),
                                      nearest.empty() ? "one of the names is" : "did you mean",

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <tuple>
 
 namespace alcove {
 namespace {
@@ -53,6 +54,16 @@ void sort_and_join(PointCloud& cloud) {
         keys[i] = {morton_code(cell), i};
     }
     radix_sort(keys, 0, 3 * morton_bits);
+    // Points in one cell by their positions, so that equal ones are neighbours.
+    for (auto first = keys.begin(); first != keys.end();) {
+        const auto end = std::find_if(first, keys.end(), [&](const auto& key) { return key.key != first->key; });
+        if (end - first > 1)
+            std::sort(first, end, [&](const auto& a, const auto& b) {
+                const Vec3 &p = cloud.points[a.value].position, &q = cloud.points[b.value].position;
+                return std::tie(p.x, p.y, p.z, a.value) < std::tie(q.x, q.y, q.z, b.value);
+            });
+        first = end;
+    }
     std::vector<CloudPoint> sorted;
     sorted.reserve(keys.size());
     for (const auto& key : keys) {

@@ -3,6 +3,7 @@
 #include "alcove/base/detail/closest_point.h"
 #include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/mesh/normals.h"
 
 #include <fmt/format.h>
 
@@ -115,8 +116,9 @@ PointField::PointField(const PointCloud& cloud, float voxel) : voxel_(voxel) {
             mean.spacing = std::max(mean.spacing, next.spacing);
         }
         mean.position = position / static_cast<float>(end - i);
-        mean.normal = glm::normalize(normal);
-        add(mean, static_cast<float>(end - i));
+        mean.normal = unit_or_zero(Vec3d(normal));
+        if (mean.normal != Vec3(0.0f))
+            add(mean, static_cast<float>(end - i));
         i = end;
     }
     build_surface();
