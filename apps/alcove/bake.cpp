@@ -129,8 +129,8 @@ void check_texture_usage(const BakeVerb& verb, const std::string& output) {
     if (!is_gltf(output))
         throw UsageError(fmt::format("--into texture is for .glb and .gltf: {} is neither", output));
     if (verb.map.given_beyond_size() || !(verb.bake.attributes == Channel::ao))
-        throw UsageError("--into texture writes ao as a plain texture: of the options for maps, it takes --size, "
-                         "--subsamples and --margin, and no --attributes");
+        throw UsageError("--into texture writes only ao: it accepts --size, --subsamples and --margin, but no other "
+                         "options for maps and no other --attributes");
     check_at_vertices(verb, output, "an occlusion texture is written");
     as_usage([&] { check(verb.map.map); });
     can_write_mesh(output); // to find out early
@@ -190,11 +190,10 @@ class BakeJob {
         read(options);
         seconds_["read"] = watch.lap();
         std::optional<BakedMaps> maps;
-        std::vector<OcclusionTextures::Texture> textures;
+        OcclusionTextures textures;
         if (verb_.map.into_texture) {
-            OcclusionTextures baked = bake_occlusion_textures(mesh_, options, verb_.map.map);
-            textures = std::move(baked.textures);
-            maps = std::move(baked.maps);
+            textures = bake_occlusion_textures(mesh_, options, verb_.map.map);
+            maps = std::move(textures.maps);
         } else if (is_map(file_.output)) {
             maps = bake_maps(mesh_, options, map_options());
         }
@@ -208,8 +207,10 @@ class BakeJob {
                             file_.input, *baked.target, *baked.rmse));
         watch.lap();
         if (verb_.map.into_texture) {
-            for (std::string& message : write_occlusion_textures(mesh_, {textures, *maps}, file_.output))
+            textures.maps = std::move(*maps);
+            for (std::string& message : write_occlusion_textures(mesh_, textures, file_.output))
                 warnings_.push_back(std::move(message));
+            maps = std::move(textures.maps);
         } else if (maps) {
             write_maps(*maps, file_.output, verb_.map.files);
             if (!verb_.map.miss_mask.empty())
@@ -252,6 +253,8 @@ class BakeJob {
             if (!verb_.grid.empty())
                 grid_ = read_grids(verb_.grid, {verb_.grid_names});
         }
+        if (mesh_.face_count() == 0 && is_gltf(file_.output))
+            throw InputError(fmt::format("{}: points are not written as glTF: write a .ply", file_.input));
         if (!grid_.levels.empty())
             options.grid = &grid_;
         if (verb_.tessellate == "auto")
@@ -271,6 +274,12 @@ class BakeJob {
                              "ao to replace them, or write a .ply");
         for (std::string& lost : write_mesh(mesh_, file_.output))
             warnings_.push_back(std::move(lost));
+    }
+
+    std::size_t baked_vertices(const Baked& baked) const {
+        return baked.selected.empty()
+                   ? mesh_.vertex_count()
+                   : static_cast<std::size_t>(std::count(baked.selected.begin(), baked.selected.end(), 1));
     }
 
     void print(const Baked& baked, const std::optional<BakedMaps>& maps) const {
@@ -311,7 +320,7 @@ class BakeJob {
             say(fmt::format(
                 "{}: {}{}", file_.output,
                 maps ? summary_of(*maps)
-                     : fmt::format("{} of {} vertices", names_of(baked.attributes), grouped(mesh_.vertex_count())),
+                     : fmt::format("{} of {} vertices", names_of(baked.attributes), grouped(baked_vertices(baked))),
                 baked.method.empty() ? "" : method_text(baked)));
     }
 
@@ -456,15 +465,14 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
 void add_occluders(CLI::App& app, BakeVerb& verb) {
     FaceSelection& faces = verb.bake.faces;
     app.add_option("--only", faces.only,
-                   "Bake only the parts of this name; all others still occlude. NAME is that of a node, mesh or "
+                   "Bake only parts with this name; all others still occlude. NAME is that of a node, mesh or "
                    "material (glTF), or of a group, object or material (OBJ); * and ? are wildcards. Repeat the option "
                    "for more")
         ->option_text("NAME");
-    app.add_option("--exclude", faces.exclude, "Neither bake the parts of this name, nor let them occlude")
+    app.add_option("--exclude", faces.exclude, "Neither bake parts with this name, nor let them occlude")
         ->option_text("NAME");
-    app.add_option("--no-occlude", faces.no_occlude, "Do not let the parts of this name occlude")->option_text("NAME");
-    app.add_flag("--opaque-only", faces.opaque_only,
-                 "Do not let parts occlude whose glTF material is masked or blended");
+    app.add_option("--no-occlude", faces.no_occlude, "Do not let parts with this name occlude")->option_text("NAME");
+    app.add_flag("--opaque-only", faces.opaque_only, "Parts with a masked or blended glTF material do not occlude");
     app.add_flag("--self", verb.bake.self,
                  "Each connected part is occluded only by itself, by --occluder meshes and by the --ground plane");
     app.add_option("--occluder", verb.occluders,

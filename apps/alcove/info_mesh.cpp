@@ -122,7 +122,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
 void add_sign(Facts& facts, const Mesh& mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     if (mesh.face_count() == 0)
-        return facts.add("sign", nullptr, "none: these are points, whose surface a bake reconstructs");
+        return facts.add("sign", nullptr, "none: the file contains points, and a bake reconstructs their surface");
     if (triangles.empty())
         return facts.add("sign", nullptr, "none: there is nothing to bake");
     try {
@@ -139,7 +139,7 @@ void add_sign(Facts& facts, const Mesh& mesh) {
 Facts facts_of_mesh(const Mesh& mesh) {
     const Diagnosis diagnosis = diagnose(mesh);
     Facts facts;
-    facts.add("kind", "mesh");
+    facts.add("kind", mesh.face_count() > 0 ? "mesh" : "points");
     facts.add("format", mesh.format, std::string(mesh.format));
     add_faces(facts, diagnosis);
     const Box box = mesh.box();
@@ -151,7 +151,8 @@ Facts facts_of_mesh(const Mesh& mesh) {
         add_ply(facts, *ply);
     if (const auto* obj = dynamic_cast<const ObjDocument*>(mesh.source.get()))
         add_obj(facts, *obj);
-    add_diagnosis(facts, diagnosis, mesh);
+    if (mesh.face_count() > 0)
+        add_diagnosis(facts, diagnosis, mesh);
     add_sign(facts, mesh);
     facts.add("warnings", mesh.warnings, mesh.warnings);
     return facts;

@@ -103,10 +103,9 @@ bool is_map(const std::string& output) {
 }
 
 void add_map_options(CLI::App& verb, MapRequest& request) {
-    add_choice<bool>(
-        verb, "--into", request.into_texture, {{"vertices", false}, {"texture", true}},
-        "Where a glb or gltf gets the values: at its vertices, or as an occlusion texture for each material, "
-        "on a set of UVs without overlaps")
+    add_choice<bool>(verb, "--into", request.into_texture, {{"vertices", false}, {"texture", true}},
+                     "Where to store the values in a glb or gltf: at its vertices, or in an occlusion texture for each "
+                     "material, on a set of UVs without overlaps")
         ->type_name("WHERE")
         ->default_str("vertices");
     verb.add_option_function<std::string>(
@@ -155,7 +154,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
             "more")
         ->option_text("MESH");
     verb.add_option("--uv-set", request.map.uv_set, "Set of UVs of a glTF file, counted from 0")
-        ->check(CLI::NonNegativeNumber.description(""))
+        ->check(CLI::Range(0, 255).description(""))
         ->type_name("N")
         ->capture_default_str();
     verb.add_option("--cage", request.cage,

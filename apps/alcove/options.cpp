@@ -181,7 +181,7 @@ void add_point_size(CLI::App& verb, std::optional<Length>& size) {
                 if (text != "auto")
                     size = length_without_vx(text, forms);
             },
-            "Of points without faces: the distance between neighbours. Holes up to twice as large are closed")
+            "Distance between neighbouring points, for inputs without faces. Holes up to twice this size are closed")
         ->check(parsable([](const std::string& text) {
             if (text != "auto")
                 length_without_vx(text, forms);

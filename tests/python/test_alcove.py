@@ -94,6 +94,13 @@ class Arrays(unittest.TestCase):
         self.refusal(alcove.InputError, lambda: alcove.bake((vertices, faces), quality="best"), "quality", "draft, good, fine")
         self.refusal(alcove.InputError, lambda: alcove.bake((vertices, faces), attributes=["height"]), "attributes", "convexity")
         self.refusal(alcove.InputError, lambda: alcove.bake((vertices, faces), method="guess"), "guess")
+        self.refusal(TypeError, lambda: alcove.bake((vertices, faces), method="exact", parameters={"rays": "many"}), "parameters")
+        self.refusal(ValueError, lambda: alcove.bake((vertices, faces), radius=float("nan")), "radius")
+        self.refusal(ValueError, lambda: alcove.Mesh(vertices, faces).set_attribute("a b", vertices), "a b")
+        self.refusal(ValueError, lambda: alcove.Mesh(vertices, faces).set_attribute("x", vertices[:, 0]), "x")
+        self.refusal(ValueError, lambda: alcove.Mesh(vertices, faces).set_attribute("empty", np.zeros((8, 0))), "empty")
+        self.refusal(ValueError, lambda: alcove.Field.box((0, 0, 0), (1, 1, 1)).dense((2 ** 32, 2 ** 32, 2)), "shape")
+        self.refusal(ValueError, lambda: alcove.Field.sphere((0, 0, 0), -1), "radius")
         self.refusal(alcove.InputError, lambda: alcove.read("missing.ply"), "missing.ply")
         self.refusal(alcove.IoError, lambda: alcove.write(alcove.Mesh(vertices, faces), "/proc/none/a.ply"), "/proc/none")
         self.assertTrue(issubclass(alcove.InputError, ValueError) and issubclass(alcove.IoError, OSError))
@@ -199,6 +206,13 @@ class Bakes(unittest.TestCase):
         for i in range(2):
             np.testing.assert_array_equal(results[i], expected[i])
 
+    def test_an_attribute_survives_its_replacement(self):
+        mesh = alcove.Mesh(*cube())
+        mesh.set_attribute("a", np.arange(8))
+        a = mesh.attribute("a")
+        mesh.set_attribute("a", np.zeros((8, 3)))
+        np.testing.assert_array_equal(a, np.arange(8))
+
     def test_a_result_outlives_its_mesh_and_views_keep_it(self):
         ao = alcove.bake(cube(3)).ao
         vertices = alcove.Mesh(*cube(3)).vertices
@@ -263,6 +277,10 @@ class Fields(unittest.TestCase):
 
     def test_ao_in_front_of_a_wall(self):
         floor = alcove.Field.plane((0, 1, 0))
+        values, origin, spacing = floor.dense((2, 3, 2), box=((0, -1, 0), (1, 1, 1)))
+        np.testing.assert_allclose(values[0, :, 0], [-1, 0, 1])
+        with self.assertRaises(alcove.InputError):
+            floor.dense((2, 2, 2))
         self.assertEqual(floor.ao([[0, 0, 0]], [[0, 1, 0]], radius=1.0)[0], 1.0)
         with self.assertRaises(alcove.InputError):
             floor.ao([[0, 0, 0]], [[0, 1, 0]], method="exact")

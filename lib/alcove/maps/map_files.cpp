@@ -1,4 +1,5 @@
 #include "alcove/base/detail/atomic_file.h"
+#include "alcove/base/detail/file_kind.h"
 #include "alcove/base/types.h"
 #include "alcove/maps/maps.h"
 #include "alcove/render/detail/exr_file.h"
@@ -18,9 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view udim_mark = "<UDIM>";
 
 std::string extension_of(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower_extension(file);
     return extension;
 }
 

@@ -116,7 +116,9 @@ BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOpt
 /// Textures of ao for the materials of a glTF scene, or one for a mesh from another format.
 struct OcclusionTextures {
     struct Texture {
-        std::optional<std::size_t> material; ///< of the glTF file; empty: of all faces without one
+        std::optional<std::size_t> material; ///< of the glTF file; empty: of faces without one
+        std::vector<std::pair<std::size_t, std::size_t>>
+            primitives; ///< that show it: meshes of the file, primitives in them
         int uv_set = 0;
     };
     std::vector<Texture> textures; ///< one per tile of `maps`

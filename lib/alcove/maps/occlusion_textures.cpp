@@ -1,4 +1,5 @@
 #include "alcove/bake/detail/selection.h"
+#include "alcove/base/detail/file_kind.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/maps/detail/rasterize.h"
 #include "alcove/maps/detail/uv_faces.h"
@@ -36,7 +37,7 @@ class MaterialFaces {
                               end = g + 1 < mesh.groups.size() ? mesh.groups[g + 1].first_face : mesh.face_count();
             if (!baked[begin])
                 continue;
-            const auto& [placement, material] = document->group_primitives[g];
+            const auto& [placement, primitive, material] = document->group_primitives[g];
             if (first.try_emplace(document->placements[placement].mesh, placement).first->second != placement) {
                 others_.insert(placement);
                 continue;
@@ -45,14 +46,23 @@ class MaterialFaces {
             own.resize(mesh.face_count(), 0);
             std::fill(own.begin() + static_cast<std::ptrdiff_t>(begin), own.begin() + static_cast<std::ptrdiff_t>(end),
                       1);
+            primitives_[material].insert({document->placements[placement].mesh, primitive});
         }
     }
 
     const std::map<std::optional<std::size_t>, std::vector<std::uint8_t>>& faces() const { return faces_; }
+    /// Meshes of the file and their primitives.
+    std::vector<std::pair<std::size_t, std::size_t>> primitives(const std::optional<std::size_t>& material) const {
+        const auto found = primitives_.find(material);
+        if (found == primitives_.end())
+            return {};
+        return {found->second.begin(), found->second.end()};
+    }
     std::size_t other_instances() const { return others_.size(); }
 
   private:
     std::map<std::optional<std::size_t>, std::vector<std::uint8_t>> faces_;
+    std::map<std::optional<std::size_t>, std::set<std::pair<std::size_t, std::size_t>>> primitives_;
     std::set<std::size_t> others_;
 };
 
@@ -61,6 +71,8 @@ class MaterialFaces {
 bool is_unwrapped(const Mesh& mesh, const UvLayout& layout, const MapOptions& options) {
     constexpr float rounding = 1e-3f;
     const UvFaces faces(mesh, {NormalSource::automatic, layout.uv_set, layout.wanted});
+    if (faces.without_texels() > 0)
+        return false;
     for (const UvTriangle& uvs : faces.uvs())
         for (const Vec2& uv : uvs)
             if (std::max(std::fabs(uv.x - 0.5f), std::fabs(uv.y - 0.5f)) > 0.5f + rounding)
@@ -111,7 +123,7 @@ OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& b
                 "it, bake it to vertices (--into vertices), or leave it out (--exclude)",
                 mesh.name.empty() ? "" : mesh.name + ": ", names_of_meshes(mesh, document, faces),
                 names_of_meshes(mesh, document, faces).starts_with("meshes") ? "have" : "has"));
-        result.textures.push_back({material, layout.uv_set});
+        result.textures.push_back({material, materials.primitives(material), layout.uv_set});
         layouts.push_back(std::move(layout));
     }
     BakeOptions ao = bake;
@@ -132,7 +144,7 @@ OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& b
 
 std::vector<std::string> write_occlusion_textures(const Mesh& mesh, const OcclusionTextures& textures,
                                                   const std::filesystem::path& file) {
-    if (file.extension() != ".glb" && file.extension() != ".gltf")
+    if (lower_extension(file) != ".glb" && lower_extension(file) != ".gltf")
         throw InputError(file.string() + ": textures are written into a .glb or .gltf: use one of these extensions");
     std::vector<GltfTexture> images;
     for (std::size_t i = 0; i < textures.textures.size(); ++i) {
@@ -141,7 +153,7 @@ std::vector<std::string> write_occlusion_textures(const Mesh& mesh, const Occlus
         std::transform(ao.begin(), ao.end(), bytes.begin(), [](float value) {
             return static_cast<std::uint16_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
         });
-        images.push_back({textures.textures[i].material, textures.textures[i].uv_set,
+        images.push_back({textures.textures[i].material, textures.textures[i].primitives, textures.textures[i].uv_set,
                           encode_png_file(textures.maps.width, textures.maps.height, 1, 8, bytes)});
     }
     return write_gltf(mesh, file, images);

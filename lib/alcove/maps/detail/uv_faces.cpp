@@ -62,7 +62,12 @@ UvFaces::UvFaces(const Mesh& mesh, const UvFacesOptions& options) : mesh_(mesh) 
         UvTriangle uvs;
         for (std::size_t k = 0; k < 3; ++k)
             uvs[k] = of_vertices.empty() ? mesh.corner_uvs[corners[t][k]] : of_vertices[triangles[t][k]];
-        if (!is_usable(uvs)) {
+        const bool is_unusable = !is_usable(uvs);
+        if (is_unusable || !(area_of(uvs) > 0.0)) {
+            const auto p = [&](std::size_t k) { return mesh.positions[triangles[t][k]]; };
+            without_texels_ += glm::cross(p(1) - p(0), p(2) - p(0)) != Vec3d(0.0);
+        }
+        if (is_unusable) {
             ++unusable_;
         } else if (!(area_of(uvs) > 0.0)) {
             ++flat_;
@@ -97,6 +102,9 @@ void UvFaces::set_cage(const Mesh& cage) {
                         "moving its vertices",
                         cage.name.empty() ? "" : cage.name + ": ", counted(cage.vertex_count(), "vertex", "vertices"),
                         grouped(mesh_.vertex_count())));
+    if (cage.positions == mesh_.positions)
+        throw InputError((cage.name.empty() ? "" : cage.name + ": ") +
+                         "the cage coincides with the mesh: move its vertices outward");
     cage_ = &cage;
 }
 

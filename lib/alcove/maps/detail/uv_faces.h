@@ -30,6 +30,8 @@ class UvFaces {
     UvFaces(const Mesh& mesh, const UvFacesOptions& options);
 
     std::span<const UvTriangle> uvs() const { return uvs_; }
+    /// Triangles with an area but without usable UVs, or without area in UV space.
+    std::size_t without_texels() const { return without_texels_; }
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what projected_from() needs.
     void add_directions();
@@ -56,6 +58,7 @@ class UvFaces {
     std::vector<TangentTriangle> tangents_;
     std::vector<Vec3> vertex_normals_;
     const Mesh* cage_ = nullptr;
+    std::size_t without_texels_ = 0;
     std::size_t unusable_ = 0, flat_ = 0; // triangles with UVs that are not finite or far away, or without area
 };
 
