@@ -65,7 +65,10 @@ Length length(const py::object& value, const std::string& argument) {
     try {
         if (py::isinstance<py::str>(value))
             return Length(value.cast<std::string>());
-        return Length(value.cast<double>());
+        const auto number = value.cast<double>();
+        if (!(number > 0.0))
+            throw InputError(fmt::format("takes a positive length, not {}", number));
+        return Length(number);
     } catch (const py::cast_error&) {
         throw py::type_error(argument + ": expected a number, or a text such as '10%'");
     } catch (const InputError& error) {

@@ -19,6 +19,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace alcove::python {
 namespace {
@@ -31,13 +33,33 @@ struct SceneField {
     Frame frame;
 };
 
+/// \throw InputError for a size that is not positive.
+float size_of(double size, const char* argument) {
+    if (!(size > 0.0) || !std::isfinite(size))
+        throw InputError(fmt::format("{}: takes a positive number, not {}", argument, size));
+    return static_cast<float>(size);
+}
+
+Vec3 direction_of(const std::array<double, 3>& v, const char* argument) {
+    const Vec3d direction(v[0], v[1], v[2]);
+    const double size = glm::length(direction);
+    if (!(size > 0.0) || !std::isfinite(size))
+        throw InputError(fmt::format("{}: takes a direction, not zero", argument));
+    return Vec3(direction / size);
+}
+
 SceneField of_stack(const GridStack& stack) {
     return {LevelStack(stack), stack.frame};
 }
 
 SceneField of_mesh(const py::object& object, const py::object& radius, const py::object& voxel,
                    const std::string& sign) {
-    const Mesh mesh = with_surface(to_mesh(object, "mesh"));
+    Mesh given = to_mesh(object, "mesh");
+    Mesh mesh;
+    {
+        const py::gil_scoped_release released;
+        mesh = with_surface(std::move(given));
+    }
     const Frame frame = frame_of(mesh.box());
     VoxelizeOptions options;
     if (!voxel.is_none())
@@ -107,7 +129,9 @@ py::array_t<float> trace_rays(const SceneField& self, const py::object& origins,
     const auto starts = rows<double>(origins, 3, "origins");
     const auto ways = rows<double>(directions, 3, "directions");
     if (starts.shape(0) != ways.shape(0))
-        throw py::value_error("directions: has another number of rows than origins");
+        throw py::value_error("directions: has a different number of rows from origins");
+    for (py::ssize_t i = 0; i < ways.shape(0); ++i)
+        direction_of({ways.at(i, 0), ways.at(i, 1), ways.at(i, 2)}, "directions");
     const float far = length(radius, "radius").to_unit(self.frame.diagonal);
     std::vector<float> distances(static_cast<std::size_t>(starts.shape(0)));
     {
@@ -138,7 +162,7 @@ py::array_t<float> ao(const SceneField& self, const py::object& points, const py
     const auto positions = rows<double>(points, 3, "points");
     const auto directions = rows<double>(normals, 3, "normals");
     if (positions.shape(0) != directions.shape(0))
-        throw py::value_error("normals: has another number of rows than points");
+        throw py::value_error("normals: has a different number of rows from points");
     const Method& chosen = find_method(method);
     if (chosen.needs_mesh)
         throw InputError("method: " + method + " needs a mesh; a field has none: use bake()");
@@ -162,29 +186,48 @@ py::array_t<float> ao(const SceneField& self, const py::object& points, const py
     return to_array(std::move(values[Channel::ao]));
 }
 
-py::tuple dense(const SceneField& self, std::array<std::size_t, 3> shape) {
-    if (shape[0] < 2 || shape[1] < 2 || shape[2] < 2 || shape[0] * shape[1] * shape[2] > (std::size_t(1) << 31))
-        throw py::value_error("shape: takes three numbers of at least 2, and at most 2^31 values");
-    const float extent = std::min(self.field.extent(), 1.0f);
-    const Vec3 low(-extent), step(2.0f * extent / float(shape[0] - 1), 2.0f * extent / float(shape[1] - 1),
-                                  2.0f * extent / float(shape[2] - 1));
-    std::vector<float> values(shape[0] * shape[1] * shape[2]);
+using Corner = std::array<double, 3>;
+
+py::tuple dense(const SceneField& self, const std::array<std::size_t, 3>& shape,
+                const std::optional<std::pair<Corner, Corner>>& box) {
+    constexpr std::size_t most = std::size_t(1) << 31;
+    std::size_t count = 1;
+    for (const std::size_t n : shape) {
+        if (n < 2 || n > most / count)
+            throw py::value_error("shape: takes three numbers of at least 2, and at most 2^31 values");
+        count *= n;
+    }
+    Vec3d low, high;
+    if (box) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = box->first[static_cast<std::size_t>(axis)];
+            high[axis] = box->second[static_cast<std::size_t>(axis)];
+        }
+    } else {
+        const float extent = self.field.extent();
+        if (!std::isfinite(extent))
+            throw InputError("box: a shape has no bounds: give the corners of the lattice");
+        low = self.frame.to_scene(Vec3(-extent));
+        high = self.frame.to_scene(Vec3(extent));
+    }
+    const Vec3d step = (high - low) / Vec3d(shape[0] - 1, shape[1] - 1, shape[2] - 1);
+    std::vector<float> values(count);
     {
         const py::gil_scoped_release released;
         parallel_for(shape[0], 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::size_t j = 0; j < shape[1]; ++j)
                     for (std::size_t k = 0; k < shape[2]; ++k)
-                        values[(i * shape[1] + j) * shape[2] + k] = static_cast<float>(
-                            double(self.field.map(low + step * Vec3(i, j, k))) * self.frame.diagonal);
+                        values[(i * shape[1] + j) * shape[2] + k] =
+                            static_cast<float>(double(self.field.map(self.frame.to_unit(low + step * Vec3d(i, j, k)))) *
+                                               self.frame.diagonal);
         });
     }
-    const Vec3d origin = self.frame.to_scene(low), spacing = Vec3d(step) * self.frame.diagonal;
     const py::array_t<float> array =
         to_array(std::move(values))
             .reshape({static_cast<py::ssize_t>(shape[0]), static_cast<py::ssize_t>(shape[1]),
                       static_cast<py::ssize_t>(shape[2])});
-    return py::make_tuple(array, std::array{origin.x, origin.y, origin.z}, std::array{spacing.x, spacing.y, spacing.z});
+    return py::make_tuple(array, std::array{low.x, low.y, low.z}, std::array{step.x, step.y, step.z});
 }
 
 Vec3 vector(const std::array<double, 3>& v) {
@@ -210,7 +253,7 @@ are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), tor
         .def_static(
             "sphere",
             [](const std::array<double, 3>& center, double radius) {
-                return SceneField{Sphere{vector(center), static_cast<float>(radius)}, {}};
+                return SceneField{Sphere{vector(center), size_of(radius, "radius")}, {}};
             },
             py::arg("center"), py::arg("radius"))
         .def_static(
@@ -222,19 +265,20 @@ are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), tor
         .def_static(
             "plane",
             [](const std::array<double, 3>& normal, double offset) {
-                return SceneField{Plane{glm::normalize(vector(normal)), static_cast<float>(offset)}, {}};
+                return SceneField{Plane{direction_of(normal, "normal"), static_cast<float>(offset)}, {}};
             },
             py::arg("normal"), py::arg("offset") = 0.0, "The half-space below the plane {p: normal . p = offset}")
         .def_static(
             "torus",
             [](const std::array<double, 3>& center, double ring, double tube) {
-                return SceneField{Torus{vector(center), static_cast<float>(ring), static_cast<float>(tube)}, {}};
+                return SceneField{Torus{vector(center), size_of(ring, "ring_radius"), size_of(tube, "tube_radius")},
+                                  {}};
             },
             py::arg("center"), py::arg("ring_radius"), py::arg("tube_radius"), "Around the y axis through its centre")
         .def_static(
             "capsule",
             [](const std::array<double, 3>& start, const std::array<double, 3>& end, double radius) {
-                return SceneField{Capsule{vector(start), vector(end), static_cast<float>(radius)}, {}};
+                return SceneField{Capsule{vector(start), vector(end), size_of(radius, "radius")}, {}};
             },
             py::arg("start"), py::arg("end"), py::arg("radius"))
         .def("map", &map, py::arg("points"), "(n,) float32: the signed distance of each of (n, 3) points")
@@ -246,8 +290,10 @@ are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), tor
         .def("ao", &ao, py::arg("points"), py::arg("normals"), py::arg("method") = "traced", py::arg("radius") = "10%",
              py::arg("parameters") = py::dict(),
              "(n,) float32: ambient occlusion at points with normals, by a method that needs no mesh")
-        .def("dense", &dense, py::arg("shape"),
-             "(values, origin, spacing): the distances on a regular lattice of that shape around the surface")
+        .def("dense", &dense, py::arg("shape"), py::arg("box") = py::none(),
+             "(values, origin, spacing): the distances on a regular lattice of that shape between two corners, by "
+             "default "
+             "those of a cube around the surface")
         .def_property_readonly(
             "resolution", [](const SceneField& self) { return double(self.field.resolution()) * self.frame.diagonal; },
             "edge of the finest voxel, scene units; 0 for shapes");

@@ -155,17 +155,13 @@ The arrays that its properties return are read-only views, without a copy.)")
             "warnings", [](const Mesh& mesh) { return mesh.warnings; }, "what reading had to leave out")
         .def(
             "attribute",
-            [](const py::object& self, const std::string& name) {
-                const Attribute* attribute = self.cast<const Mesh&>().find_attribute(name);
+            [](const Mesh& mesh, const std::string& name) {
+                const Attribute* attribute = mesh.find_attribute(name);
                 if (attribute == nullptr)
                     throw py::key_error("no attribute " + name + " was added");
-                std::vector<py::ssize_t> shape{
-                    signed_size(attribute->values.size() / static_cast<std::size_t>(attribute->components))};
-                if (attribute->components > 1)
-                    shape.push_back(attribute->components);
-                return view(attribute->values.data(), shape, self);
+                return to_array(attribute->values, static_cast<std::size_t>(attribute->components));
             },
-            py::arg("name"), "(n,) or (n, k) float32: values that add() or set_attribute() added")
+            py::arg("name"), "(n,) or (n, k) float32: a copy of values that add() or set_attribute() added")
         .def(
             "set_attribute",
             [](Mesh& mesh, const std::string& name, const py::object& values) {
@@ -192,14 +188,12 @@ The arrays that its properties return are read-only views, without a copy.)")
 Raises InputError, with the file, the place and a fix.)");
     module.def(
         "write",
-        [](const Mesh& mesh, const std::filesystem::path& file) {
-            const py::gil_scoped_release released;
-            return write_mesh(mesh, file);
-        },
-        py::arg("mesh"), py::arg("file"), R"(Writes a mesh as PLY, OBJ or glTF; everything in its file is kept.
+        // With the GIL: another thread could change the mesh.
+        [](const Mesh& mesh, const std::filesystem::path& file) { return write_mesh(mesh, file); }, py::arg("mesh"),
+        py::arg("file"), R"(Writes a mesh as PLY, OBJ or glTF; everything in its file is kept.
 
 The file is written completely or not at all. Returns what the format could not store, as messages. Raises InputError for
-another extension, IoError if it cannot be written.)");
+any other extension, IoError if it cannot be written.)");
 }
 
 }

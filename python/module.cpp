@@ -79,57 +79,64 @@ BakeOptions options_of(const py::dict& values) {
         return values.contains(name) ? py::object(values[name]) : py::object();
     };
     const auto text = [&](const char* name) { return find(name).cast<std::string>(); };
-    for (const auto& [key, value] : values) {
-        const auto name = key.cast<std::string>();
-        if (name == "radius")
-            options.radius = length(find("radius"), "radius");
-        else if (name == "quality")
-            options.quality =
-                word<Quality>(text("quality"),
-                              {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}}, "quality");
-        else if (name == "error")
-            options.error = value.cast<std::optional<double>>();
-        else if (name == "method")
-            options.method = text("method");
-        else if (name == "parameters")
-            for (const auto& [parameter, number] : value.cast<py::dict>())
-                options.parameters.emplace_back(parameter.cast<std::string>(), number.cast<double>());
-        else if (name == "attributes")
-            options.attributes = channels_named(value.cast<std::vector<std::string>>());
-        else if (name == "occluders")
-            for (const py::handle& occluder : value)
-                options.occluders.push_back(to_mesh(py::reinterpret_borrow<py::object>(occluder), "occluders"));
-        else if (name == "ground")
-            options.ground = value.cast<bool>();
-        else if (name == "up") {
-            const auto up = value.cast<std::array<double, 3>>();
-            options.up = {up[0], up[1], up[2]};
-        } else if (name == "self_only")
-            options.self = value.cast<bool>();
-        else if (name == "via")
-            options.via =
-                word<Via>(text("via"), {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}}, "via");
-        else if (name == "normals")
-            options.normals = word<NormalSource>(text("normals"),
-                                                 {{"auto", NormalSource::automatic},
-                                                  {"file", NormalSource::file},
-                                                  {"angle", NormalSource::angle},
-                                                  {"area", NormalSource::area}},
-                                                 "normals");
-        else if (name == "sign")
-            options.sign = word<SignChoice>(
-                text("sign"),
-                {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}}, "sign");
-        else if (name == "voxel") {
-            if (!value.is_none())
-                options.voxel = length(find("voxel"), "voxel");
-        } else if (name == "seed")
-            options.seed = value.cast<std::uint32_t>();
-        else if (name == "threads")
-            options.threads = value.cast<unsigned>();
-        else if (name != "progress")
-            throw py::type_error(name + " is not an option of bake()");
-    }
+    for (const auto& [key, value] : values)
+        try {
+            const auto name = key.cast<std::string>();
+            if (name == "radius")
+                options.radius = length(find("radius"), "radius");
+            else if (name == "quality")
+                options.quality = word<Quality>(
+                    text("quality"), {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
+                    "quality");
+            else if (name == "error")
+                options.error = value.cast<std::optional<double>>();
+            else if (name == "method")
+                options.method = text("method");
+            else if (name == "parameters")
+                for (const auto& [parameter, number] : value.cast<py::dict>())
+                    options.parameters.emplace_back(parameter.cast<std::string>(), number.cast<double>());
+            else if (name == "attributes")
+                options.attributes =
+                    channels_named(py::isinstance<py::str>(value) ? std::vector{value.cast<std::string>()}
+                                                                  : value.cast<std::vector<std::string>>());
+            else if (name == "occluders")
+                for (const py::handle& occluder : value)
+                    options.occluders.push_back(to_mesh(py::reinterpret_borrow<py::object>(occluder), "occluders"));
+            else if (name == "ground")
+                options.ground = value.cast<bool>();
+            else if (name == "up") {
+                const auto up = value.cast<std::array<double, 3>>();
+                options.up = {up[0], up[1], up[2]};
+            } else if (name == "self_only")
+                options.self = value.cast<bool>();
+            else if (name == "via")
+                options.via =
+                    word<Via>(text("via"), {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}}, "via");
+            else if (name == "normals")
+                options.normals = word<NormalSource>(text("normals"),
+                                                     {{"auto", NormalSource::automatic},
+                                                      {"file", NormalSource::file},
+                                                      {"angle", NormalSource::angle},
+                                                      {"area", NormalSource::area}},
+                                                     "normals");
+            else if (name == "sign")
+                options.sign = word<SignChoice>(
+                    text("sign"),
+                    {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}},
+                    "sign");
+            else if (name == "voxel") {
+                if (!value.is_none())
+                    options.voxel = length(find("voxel"), "voxel");
+            } else if (name == "seed")
+                options.seed = value.cast<std::uint32_t>();
+            else if (name == "threads")
+                options.threads = value.cast<unsigned>();
+            else if (name != "progress")
+                throw py::type_error(name + " is not an option of bake()");
+        } catch (const py::cast_error&) {
+            throw py::type_error(
+                fmt::format("{}: cannot be {}", std::string(py::str(key)), std::string(py::repr(value))));
+        }
     options.progress = progress_for(values.contains("progress") ? find("progress") : py::none());
     return options;
 }
@@ -170,10 +177,10 @@ std::vector<SurfacePoint> points_of(const py::object& points, const Mesh& mesh) 
 
 Result bake_any(const py::object& mesh_argument, const py::object& radius, const std::string& quality,
                 const std::optional<double>& error, const std::string& method, const py::dict& parameters,
-                const std::vector<std::string>& attributes, const py::list& occluders, bool ground,
-                const std::array<double, 3>& up, bool self_only, const std::string& via, const std::string& normals,
-                const std::string& sign, const py::object& voxel, const py::object& points, std::uint32_t seed,
-                unsigned threads, const py::object& progress) {
+                const py::object& attributes, const py::list& occluders, bool ground, const std::array<double, 3>& up,
+                bool self_only, const std::string& via, const std::string& normals, const std::string& sign,
+                const py::object& voxel, const py::object& points, std::uint32_t seed, unsigned threads,
+                const py::object& progress) {
     using namespace py::literals;
     const MeshArgument mesh(mesh_argument);
     const BakeOptions options = options_of(
@@ -196,14 +203,23 @@ struct MapResult {
     BakedMaps maps;
 };
 
-MapResult bake_maps_any(const py::object& mesh_argument, const std::array<int, 2>& size, int subsamples,
+MapResult bake_maps_any(const py::object& mesh_argument, const py::object& size, int subsamples,
                         const std::optional<int>& margin, int uv_set, const std::string& space, const py::list& high,
                         const py::kwargs& others) {
     const MeshArgument mesh(mesh_argument);
     const BakeOptions options = options_of(others);
     MapOptions map;
-    map.width = size[0];
-    map.height = size[1];
+    if (py::isinstance<py::int_>(size)) {
+        map.width = map.height = size.cast<int>();
+    } else {
+        try {
+            const auto sides = size.cast<std::array<int, 2>>();
+            map.width = sides[0];
+            map.height = sides[1];
+        } catch (const py::cast_error&) {
+            throw py::type_error("size: expected a number of texels, or (width, height)");
+        }
+    }
     map.subsamples = subsamples;
     map.margin = margin;
     map.uv_set = uv_set;
@@ -251,11 +267,11 @@ void add_maps(py::module_& module) {
         .def_property_readonly(
             "baked", [](const MapResult& r) { return Result{r.maps.baked}; },
             "method, rmse, radius, warnings and seconds");
-    module.def("bake_maps", &bake_maps_any, py::arg("mesh"), py::kw_only(), py::arg("size") = std::array{2048, 2048},
+    module.def("bake_maps", &bake_maps_any, py::arg("mesh"), py::kw_only(), py::arg("size") = 2048,
                py::arg("subsamples") = 1, py::arg("margin") = py::none(), py::arg("uv_set") = 0,
                py::arg("space") = "tangent", py::arg("high") = py::list(), R"(Bakes texture maps on the UVs of a mesh.
 
-size: (width, height) in texels. subsamples: samples along each side of a texel. margin: texels to fill around islands.
+size: texels along each side, or (width, height). subsamples: samples along each side of a texel. margin: texels to fill around islands.
 uv_set: of a glTF file. space: "tangent" or "object", of directions. high: meshes whose surface is baked instead.
 All other options are those of bake(). Returns a BakedMaps. Raises as bake(), and InputError without UVs.)");
 }
