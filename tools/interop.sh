@@ -77,11 +77,15 @@ else
 fi
 if command -v blender >/dev/null && [ -d build/python/alcove ]; then
     tools/addon.sh >/dev/null
-    check env BLENDER_USER_RESOURCES="$PWD/$work/blender" blender --background --python "$work/test_addon.py" -- \
-        build/alcove_blender.zip build/alcove "$work/addon" --module build/python >"$work/addon.log" 2>&1
-    grep -E "^FAILED|^ok" "$work/addon.log" || cat "$work/addon.log"
+    addon() {
+        BLENDER_USER_RESOURCES="$PWD/$work/blender" blender --background --python "$work/test_addon.py" -- \
+            build/alcove_blender.zip build/alcove "$work/addon" --module build/python >"$work/addon.log" 2>&1 ||
+            { cat "$work/addon.log"; return 1; }
+    }
+    check addon
 else
     echo "interop: skipped: the Blender add-on (blender or the Python module is missing)"
 fi
+[ "$count" -gt 0 ] || echo "interop: nothing could be checked"
 echo "interop: $count checks, $failed failed"
 [ "$failed" -eq 0 ]

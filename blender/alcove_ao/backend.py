@@ -190,7 +190,7 @@ class Bake:
             return read_ao(target, len(vertices))
 
     def image(self, surface, others, width, height):
-        """Rows of texels from the bottom, as Blender stores them."""
+        """What pixels() turns into texels: rows from the bottom, as Blender stores them, or the bytes of an .exr."""
         if alcove is not None:
             mesh = alcove.Mesh(surface.vertices, (surface.corners, surface.offsets), corner_normals=surface.normals,
                                corner_uvs=surface.uvs)
@@ -198,8 +198,6 @@ class Bake:
                                 occluders=[(s.vertices, (s.corners, s.offsets)) for s in others])
             self._keep(maps.baked)
             return maps.ao[::-1]
-        import bpy
-
         program = program_of(self.program)
         with tempfile.TemporaryDirectory() as folder:
             source, target = os.path.join(folder, "in.obj"), os.path.join(folder, "out.exr")
@@ -216,7 +214,21 @@ class Bake:
                 write_ply(path, other.vertices, other.corners, other.offsets)
                 arguments += ["--occluder", path]
             self._keep_json(run(program, arguments + self.options(), self.cancelled))
-            loaded = bpy.data.images.load(target)
+            with open(target, "rb") as file:
+                return file.read()
+
+    @staticmethod
+    def pixels(values, width, height):
+        """For the main thread only, as it may use Blender's data."""
+        if not isinstance(values, bytes):
+            return np.asarray(values)
+        import bpy
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "map.exr")
+            with open(path, "wb") as file:
+                file.write(values)
+            loaded = bpy.data.images.load(path)
             try:
                 pixels = np.empty(4 * width * height, np.float32)
                 loaded.pixels.foreach_get(pixels)

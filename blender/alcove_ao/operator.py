@@ -20,9 +20,12 @@ def surface_of(thing, depsgraph, needs_uvs=False):
         mesh.loops.foreach_get("vertex_index", corners)
         starts = np.empty(len(mesh.polygons), np.int32)
         mesh.polygons.foreach_get("loop_start", starts)
-        mesh.calc_normals_split()
         normals = np.empty(3 * len(mesh.loops), np.float32)
-        mesh.loops.foreach_get("normal", normals)
+        if hasattr(mesh, "calc_normals_split"):  # before Blender 4.1
+            mesh.calc_normals_split()
+            mesh.loops.foreach_get("normal", normals)
+        else:
+            mesh.corner_normals.foreach_get("vector", normals)
         to_world = np.array(thing.matrix_world)
         places = vertices.reshape(-1, 3) @ to_world[:3, :3].T + to_world[:3, 3]
         turned = normals.reshape(-1, 3) @ np.linalg.pinv(to_world[:3, :3])
@@ -127,9 +130,17 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
             if active not in self.things:
                 raise backend.Failed("the active object must be a selected mesh, as it has the image")
             self.image = active_image(active)
+            self.size = tuple(self.image.size)
             self.surfaces = [surface_of(active, depsgraph, needs_uvs=True)]
             self.others = [surface_of(thing, depsgraph) for thing in self.things if thing != active]
         else:
+            if len({thing.data for thing in self.things}) < len(self.things):
+                raise backend.Failed("selected objects share a mesh: make it single-user first (Object > Relations)")
+            for thing in self.things:
+                layer = thing.data.attributes.get(self.attribute_name)
+                if layer is not None and layer.data_type not in {"FLOAT_COLOR", "BYTE_COLOR", "FLOAT"}:
+                    raise backend.Failed("'%s' has an attribute '%s' of another kind: choose another name"
+                                         % (thing.name, self.attribute_name))
             self.surfaces = [surface_of(thing, depsgraph) for thing in self.things]
             self.nearest = [nearest_vertices(thing, depsgraph) for thing in self.things]
 
@@ -139,7 +150,7 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
     def compute(self):
         """The slow part, without access to Blender's data."""
         if self.target == "IMAGE":
-            return self.bake.image(self.surfaces[0], self.others, *self.image.size)
+            return self.bake.image(self.surfaces[0], self.others, *self.size)
         joined = backend.Surface.joined(self.surfaces)
         # Values at corners of the evaluated mesh do not fit another one.
         if self.target == "CORNER" and all(nearest is None for nearest in self.nearest):
@@ -148,9 +159,10 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
 
     def finish(self, values):
         if self.target == "IMAGE":
-            width, height = self.image.size
+            width, height = self.size
             pixels = np.ones((height, width, 4), np.float32)
-            pixels[..., :3] = np.asarray(values)[..., None]
+            pixels[..., :3] = self.bake.pixels(values, width, height)[..., None]
+            self.image.colorspace_settings.name = "Non-Color"
             self.image.pixels.foreach_set(pixels.ravel())
             self.image.update()
         else:

@@ -60,7 +60,7 @@ def _draw():
         ]
         for a, b in zip(circle, circle[1:]):
             lines += [a, b]
-    shader = gpu.shader.from_builtin("3D_UNIFORM_COLOR")
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR" if bpy.app.version >= (4, 0, 0) else "3D_UNIFORM_COLOR")
     shader.bind()
     shader.uniform_float("color", (1.0, 0.6, 0.1, 0.8))
     batch_for_shader(shader, "LINES", {"pos": lines}).draw(shader)
