@@ -274,8 +274,10 @@ class ValueWriter {
     void report() {
         if (copied_ > 0)
             messages_.push_back(
-                counted(copied_, "instance received", "instances received") +
-                " their own copy of the mesh, because their values differ from those of other instances");
+                copied_ == 1 ? "1 instance received its own copy of the mesh, because its values differ from those "
+                               "of other instances"
+                             : grouped(copied_) + " instances received their own copies of the mesh, because "
+                                                  "their values differ from those of other instances");
         if (shared_ > 0)
             messages_.push_back(fmt::format("{} the values of another instance of the same mesh; they differ by an "
                                             "RMSE of at most {:.2g}",
