@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view udim_mark = "<UDIM>";
 
-std::string extension_of(const fs::path& file) {
-    const std::string extension = lower_extension(file);
-    return extension;
-}
-
 fs::path of_tile(const fs::path& file, int udim) {
     std::string name = file.filename().string();
     for (std::size_t at; (at = name.find(udim_mark)) != std::string::npos;)
@@ -166,7 +161,7 @@ void write_exr(const BakedMaps& maps, const MapTile& tile, const fs::path& file,
 }
 
 void check(const MapFileOptions& options, const fs::path& file) {
-    const std::string extension = extension_of(file);
+    const std::string extension = lower_extension(file);
     const MapDepth depth = options.depth;
     if (extension != ".png" && extension != ".exr")
         throw InputError(file.string() + ": maps are written as .png or .exr: use one of these extensions");
@@ -191,7 +186,7 @@ std::vector<fs::path> write_maps(const BakedMaps& maps, const fs::path& file, co
         if (!options.pack.empty()) {
             written.push_back(of_tile(file, tile.udim));
             write_file(written.back(), packed(maps, tile, options.pack, bits));
-        } else if (extension_of(file) == ".png") {
+        } else if (lower_extension(file) == ".png") {
             for (fs::path& path : write_pngs(maps, tile, file, bits))
                 written.push_back(std::move(path));
         } else {
@@ -203,7 +198,7 @@ std::vector<fs::path> write_maps(const BakedMaps& maps, const fs::path& file, co
 }
 
 std::vector<fs::path> write_miss_mask(const BakedMaps& maps, const fs::path& file) {
-    if (extension_of(file) != ".png")
+    if (lower_extension(file) != ".png")
         throw InputError(file.string() + ": the mask of misses is written as .png: use this extension");
     std::vector<fs::path> written;
     for (const MapTile& tile : maps.tiles) {
