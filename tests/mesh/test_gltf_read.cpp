@@ -284,6 +284,10 @@ TEST_F(GltfRead, DecodesDraco) {
         p = glm::round(p);
     }
     EXPECT_EQ(triangles_of(rounded), expected);
+    Json& ids = compressed.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"]["attributes"];
+    ids["TEXCOORD_0"] = ids["POSITION"];
+    expect_has(refusal(compressed), "TEXCOORD_0 has 3 components");
+    ids.erase("TEXCOORD_0");
     compressed.bytes.resize(compressed.bytes.size() - encoded.size() / 2);
     expect_has(refusal(compressed), "bufferViews[0]");
     compressed.bytes.resize(compressed.bytes.size() + encoded.size(), 'x');

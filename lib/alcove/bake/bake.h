@@ -147,8 +147,9 @@ struct Baked {
 /// is one line that names them.
 void check(const BakeOptions& options);
 
-/// Bakes the vertices of a mesh, or if it has no faces, its points on their surface (surface_of_points()). The values do not depend on the number of threads. Warnings and messages use the
-/// option names of the command line: --radius is BakeOptions::radius.
+/// Bakes the vertices of a mesh, or if it has no faces, its points on their surface (surface_of_points()). The values
+/// do not depend on the number of threads. Warnings and messages use the option names of the command line: --radius is
+/// BakeOptions::radius.
 ///
 /// Thread-safety: concurrent calls must have the same `threads`, since that limit applies to the whole process, and
 /// should not have a `time_limit`, since it is checked with the CPU time of the whole process.

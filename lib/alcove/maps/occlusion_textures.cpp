@@ -117,12 +117,13 @@ OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& b
         UvLayout layout{0, faces};
         while (layout.uv_set < sets && !is_unwrapped(mesh, layout, options))
             ++layout.uv_set;
-        if (layout.uv_set == sets)
+        if (layout.uv_set == sets) {
+            const std::string names = names_of_meshes(mesh, document, faces);
             throw InputError(fmt::format(
                 "{}{} {} no set of UVs without overlaps inside the texture, which an occlusion texture needs: unwrap "
                 "it, bake it to vertices (--into vertices), or leave it out (--exclude)",
-                mesh.name.empty() ? "" : mesh.name + ": ", names_of_meshes(mesh, document, faces),
-                names_of_meshes(mesh, document, faces).starts_with("meshes") ? "have" : "has"));
+                mesh.name.empty() ? "" : mesh.name + ": ", names, names.starts_with("meshes") ? "have" : "has"));
+        }
         result.textures.push_back({material, materials.primitives(material), layout.uv_set});
         layouts.push_back(std::move(layout));
     }

@@ -31,8 +31,7 @@ std::string padding(std::size_t size, char c) {
 }
 
 bool is_glb(const fs::path& file) {
-    const std::string extension = lower_extension(file);
-    return extension == ".glb";
+    return lower_extension(file) == ".glb";
 }
 
 std::string little_endian(std::uint32_t number) {

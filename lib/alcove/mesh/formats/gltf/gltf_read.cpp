@@ -9,7 +9,6 @@
 #include "alcove/mesh/normals.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/mat3x3.hpp>
 
 #include <algorithm>
@@ -49,6 +48,25 @@ void check_extensions(const GltfValue& root) {
 std::optional<GltfValue> draco_of(const GltfValue& primitive) {
     const std::optional<GltfValue> extensions = primitive.find("extensions");
     return extensions ? extensions->find("KHR_draco_mesh_compression") : std::nullopt;
+}
+
+// Takes an attribute out of a decoded primitive; empty if it is not there.
+std::vector<float> take_attribute(DracoMesh& mesh, const GltfValue& extension, const std::string& name, int least,
+                                  int most) {
+    const auto found = mesh.attributes.find(name);
+    if (found == mesh.attributes.end())
+        return {};
+    if (found->second.components < least || found->second.components > most)
+        extension.fail(fmt::format("{} has {} components; export the file again", name, found->second.components));
+    return std::move(found->second.floats);
+}
+
+// glTF counts v from the top of the image, Alcove from the bottom.
+std::vector<Vec2> as_uvs(const std::vector<float>& floats) {
+    std::vector<Vec2> uvs(floats.size() / 2);
+    for (std::size_t i = 0; i < uvs.size(); ++i)
+        uvs[i] = {floats[2 * i], 1.0f - floats[2 * i + 1]};
+    return uvs;
 }
 
 std::optional<GltfValue> accessor_of(const GltfValue& root, const GltfValue& primitive, const char* attribute) {
@@ -232,13 +250,7 @@ class GltfReader {
         DracoMesh draco = decode_draco(file_, extension);
         DecodedVertices vertices;
         const auto take = [&](const char* name, int least, int most) {
-            const auto found = draco.attributes.find(name);
-            if (found == draco.attributes.end())
-                return std::vector<float>();
-            if (found->second.components < least || found->second.components > most)
-                extension.fail(
-                    fmt::format("{} has {} components; export the file again", name, found->second.components));
-            return std::move(found->second.floats);
+            return take_attribute(draco, extension, name, least, most);
         };
         const std::size_t count = count_of_accessor(*accessor_of(root_, primitive, "POSITION"));
         vertices.positions = take("POSITION", 3, 3);
@@ -251,7 +263,9 @@ class GltfReader {
             vertices.normals = floats(primitive, "NORMAL", 3, 3, count);
         if (vertices.colors.empty())
             vertices.colors = floats(primitive, "COLOR_0", 3, 4, count, &vertices.color_components);
-        vertices.uvs = uvs_of_primitive(file_, primitive, 0);
+        vertices.uvs = as_uvs(take("TEXCOORD_0", 2, 2));
+        if (vertices.uvs.empty() && !extension["attributes"].has("TEXCOORD_0"))
+            vertices.uvs = uvs_of_primitive(file_, primitive, 0);
         if (vertices.positions.empty())
             extension.fail("has no POSITION; export the file again");
         // The values that are written refer to these vertices.
@@ -442,12 +456,8 @@ class GltfReader {
 std::vector<Vec2> uvs_of_primitive(GltfFile& file, const GltfValue& primitive, std::size_t set) {
     const std::string name = fmt::format("TEXCOORD_{}", set);
     if (const std::optional<GltfValue> draco = draco_of(primitive); draco && (*draco)["attributes"].has(name.c_str())) {
-        const DracoMesh decoded = decode_draco(file, *draco);
-        std::vector<Vec2> uvs;
-        const std::vector<float>& floats = decoded.attributes.at(name).floats;
-        for (std::size_t i = 0; i + 1 < floats.size(); i += 2)
-            uvs.emplace_back(floats[i], 1.0f - floats[i + 1]);
-        return uvs;
+        DracoMesh decoded = decode_draco(file, *draco);
+        return as_uvs(take_attribute(decoded, *draco, name, 2, 2));
     }
     const std::optional<GltfValue> value = accessor_of(file.root(), primitive, name.c_str());
     if (!value)
@@ -457,11 +467,7 @@ std::vector<Vec2> uvs_of_primitive(GltfFile& file, const GltfValue& primitive, s
     if (accessor.count() != count)
         value->fail(fmt::format("{} has {} elements, but POSITION has {}; export the file again", name,
                                 grouped(accessor.count()), grouped(count)));
-    const std::vector<float> floats = accessor.floats();
-    std::vector<Vec2> uvs(count);
-    for (std::size_t i = 0; i < uvs.size(); ++i)
-        uvs[i] = {floats[2 * i], 1.0f - floats[2 * i + 1]};
-    return uvs;
+    return as_uvs(accessor.floats());
 }
 
 bool GltfDocument::has_vertex_property(std::string_view name) const {
