@@ -1,336 +1,21 @@
 #include "bake_batch.h"
-#include "ending.h"
-#include "inputs.h"
-#include "map_output.h"
-#include "options.h"
+#include "bake_job.h"
+#include "bake_verb.h"
 #include "weld.h"
 
-#include "alcove/bake/bake.h"
-#include "alcove/base/detail/atomic_file.h"
-#include "alcove/base/detail/memory.h"
-#include "alcove/base/detail/messages.h"
-#include "alcove/base/detail/stopwatch.h"
-#include "alcove/mesh/detail/join.h"
-#include "alcove/mesh/detail/tessellate.h"
 #include "alcove/mesh/files.h"
-#include "alcove/vdb/vdb_file.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <memory>
-#include <sstream>
 
 namespace alcove::cli {
 namespace {
 
-struct BakeVerb {
-    CommonOptions common;
-    BakeOptions bake;
-    AddOptions add;
-    MapRequest map;
-    MethodRequest method;
-    std::vector<std::string> inputs, occluders, grid_names;
-    std::string output, grid, write_grid, tessellate;
-    std::optional<Vec3d> up;
-    std::optional<Quality> quality;
-    float adaptivity = 0.0f;
-    bool strict = false;
-};
-
-ChannelSet parse_attributes(const std::string& text) {
-    ChannelSet wanted;
-    std::string known;
-    for (const ChannelInfo& channel : channels)
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", channel.name);
-    std::istringstream names(text);
-    for (std::string name; std::getline(names, name, ',');) {
-        const auto* found = std::find_if(channels.begin(), channels.end(),
-                                         [&](const ChannelInfo& channel) { return channel.name == name; });
-        if (found == channels.end())
-            throw InputError(fmt::format("takes {}, separated by commas, not '{}'", known, name));
-        wanted = wanted | found->channel;
-    }
-    if (wanted.empty())
-        throw InputError("takes one or more of " + known);
-    return wanted;
+void choose_attributes(BakeVerb& verb, EnumSet<MapAttribute> attributes) {
+    verb.bake.attributes = channels_of(attributes);
+    verb.map.map.surface = attributes.without(attributes_of(verb.bake.attributes));
 }
-
-/// Checks the command line before any file is read.
-void check_usage(const BakeVerb& verb) {
-    const bool meshed = std::any_of(verb.inputs.begin(), verb.inputs.end(), is_grid);
-    if (meshed && !verb.grid.empty())
-        throw UsageError("--grid is for meshes: a .vdb input is a grid already");
-    if (!meshed && verb.grid.empty() && !verb.grid_names.empty())
-        throw UsageError("--grid-name is for grids: " + verb.inputs.front() + " is a mesh");
-    if (!meshed && verb.adaptivity > 0.0f)
-        throw UsageError("--adaptivity is for grids: " + verb.inputs.front() + " is a mesh already");
-    if (meshed && !verb.tessellate.empty())
-        throw UsageError("--tessellate is for meshes: a .vdb input is meshed with faces of one voxel");
-    if (meshed && verb.bake.weld)
-        throw UsageError("--weld is for meshes: a .vdb input has no vertices");
-    if (verb.inputs.size() > 1 && (!verb.grid.empty() || !verb.write_grid.empty()))
-        throw UsageError("--grid and --write-grid take one input: bake the inputs one at a time");
-    if (!verb.write_grid.empty())
-        check_grid_output(verb.write_grid);
-    if (verb.strict && !verb.bake.method.empty() && !verb.bake.error)
-        throw UsageError("--strict needs an --error for the --method to meet");
-    if ((verb.add.color == ColorUse::ao || verb.add.color == ColorUse::multiply) &&
-        !verb.bake.attributes.has(Channel::ao))
-        throw UsageError("--color ao and --color multiply need ao among the --attributes");
-    BakeOptions options = verb.bake;
-    const GridStack any;
-    if (meshed || !verb.grid.empty())
-        options.grid = &any;
-    if (!verb.map.map.surface.empty()) // needs no other attribute
-        options.attributes = options.attributes | Channel::ao;
-    as_usage([&] { check(options); });
-}
-
-/// Refuses options for values at vertices.
-void check_at_vertices(const BakeVerb& verb, const std::string& output, std::string_view instead) {
-    const auto refuse = [&](bool given, std::string_view option) {
-        if (given)
-            throw UsageError(fmt::format("{} is for values at vertices, but {}: {}", option, instead, output));
-    };
-    refuse(!verb.tessellate.empty(), "--tessellate");
-    refuse(verb.bake.self, "--self");
-    refuse(verb.bake.weld.has_value(), "--weld");
-    refuse(verb.add.color != ColorUse::automatic, "--color");
-    refuse(!verb.write_grid.empty(), "--write-grid");
-}
-
-void check_map_usage(const BakeVerb& verb, const std::string& output) {
-    check_at_vertices(verb, output, "the output is a texture map");
-    if (!verb.bake.faces.empty() && !verb.map.high.empty())
-        throw UsageError(
-            "--only, --exclude, --no-occlude and --opaque-only choose parts of the input, but --high bakes "
-            "other meshes: leave out one of them");
-    as_usage([&] {
-        MapOptions map = verb.map.map;
-        map.high.resize(verb.map.high.size()); // read later
-        if (!verb.map.cage.empty())
-            map.cage.emplace();
-        check(map);
-        check(verb.map.files, output);
-        if (!verb.map.miss_mask.empty())
-            check_miss_mask(verb.map, output);
-    });
-    const AtomicFile probe(output); // to find out early
-}
-
-bool is_gltf(const std::string& output) {
-    return extension(output) == ".glb" || extension(output) == ".gltf";
-}
-
-/// Checks the options of occlusion textures.
-void check_texture_usage(const BakeVerb& verb, const std::string& output) {
-    if (!is_gltf(output))
-        throw UsageError(fmt::format("--into texture is for .glb and .gltf: {} is neither", output));
-    if (verb.map.given_beyond_size() || !(verb.bake.attributes == Channel::ao))
-        throw UsageError("--into texture writes only ao: it accepts --size, --subsamples and --margin, but no other "
-                         "options for maps and no other --attributes");
-    check_at_vertices(verb, output, "an occlusion texture is written");
-    as_usage([&] { check(verb.map.map); });
-    can_write_mesh(output); // to find out early
-}
-
-void check_format(const BakeVerb& verb, const std::string& output) {
-    if (verb.map.into_texture)
-        return check_texture_usage(verb, output);
-    if (is_map(output))
-        return check_map_usage(verb, output);
-    if (verb.map.given())
-        throw UsageError(
-            "--size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage, "
-            "--miss-mask, --pack, and the attributes of a high mesh are for texture maps: write a .png or .exr");
-    const ChannelSet others = verb.bake.attributes.without(Channel::ao);
-    if (extension(output) == ".obj" && !others.empty())
-        throw UsageError(output + ": an .obj can store only ao, as colours: write a .ply for " + names_of(others));
-    if (extension(output) == ".obj" && verb.add.color == ColorUse::none)
-        throw UsageError(output + ": an .obj can store ao only as colours: leave out --color none, or write a .ply");
-    if (!can_write_mesh(output))
-        throw UsageError(output +
-                         ": meshes are written as .ply, .obj, .glb or .gltf, texture maps as .png or .exr: use one of "
-                         "these extensions");
-}
-
-std::string rmse_text(const Baked& baked) {
-    constexpr double resolution = 1e-3; // of the measured error
-    if (!baked.rmse)
-        return "";
-    return *baked.rmse < resolution ? fmt::format(", RMSE below {}", resolution)
-                                    : fmt::format(", RMSE about {:.2g}", *baked.rmse);
-}
-
-std::string evaluated_text(const Baked& baked) {
-    return baked.evaluated < 1.0 ? fmt::format(" at {:.2g} % of them, the others interpolated", 100.0 * baked.evaluated)
-                                 : "";
-}
-
-/// How the values were computed, and their error.
-std::string method_text(const Baked& baked) {
-    return fmt::format(" by {}{}, radius {:.4g}, {}{}{}", baked.method, evaluated_text(baked), baked.radius,
-                       baked.grid_summary.text(), rmse_text(baked),
-                       baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason));
-}
-
-/// One input, from reading to writing.
-class BakeJob {
-  public:
-    BakeJob(const BakeVerb& verb, const BatchFile& file) : verb_(verb), file_(file) {}
-
-    void run(const BakeProgress& progress) {
-        BakeOptions options = verb_.bake;
-        options.progress = progress;
-        if (const std::optional<double> left = seconds_left())
-            options.time_limit = left;
-        Stopwatch watch;
-        read(options);
-        seconds_["read"] = watch.lap();
-        std::optional<BakedMaps> maps;
-        OcclusionTextures textures;
-        if (verb_.map.into_texture) {
-            textures = bake_occlusion_textures(mesh_, options, verb_.map.map);
-            maps = std::move(textures.maps);
-        } else if (is_map(file_.output)) {
-            maps = bake_maps(mesh_, options, map_options());
-        }
-        const Baked baked = maps ? std::move(maps->baked) : bake(mesh_, options);
-        seconds_["grid"] = baked.seconds.grid;
-        seconds_["occlusion"] = baked.seconds.occlusion;
-        seconds_["pilot"] = baked.seconds.pilot;
-        if (verb_.strict && baked.missed())
-            throw std::runtime_error(
-                fmt::format("{}: misses the error target of {:g}: the measured RMSE is {:.2g}, and nothing is written",
-                            file_.input, *baked.target, *baked.rmse));
-        watch.lap();
-        if (verb_.map.into_texture) {
-            textures.maps = std::move(*maps);
-            for (std::string& message : write_occlusion_textures(mesh_, textures, file_.output))
-                warnings_.push_back(std::move(message));
-            maps = std::move(textures.maps);
-        } else if (maps) {
-            write_maps(*maps, file_.output, verb_.map.files);
-            if (!verb_.map.miss_mask.empty())
-                write_miss_mask(*maps, verb_.map.miss_mask);
-        } else {
-            write(baked);
-        }
-        seconds_["write"] = watch.lap();
-        warnings_.insert(warnings_.begin(), baked.warnings.begin(), baked.warnings.end());
-        warnings_.insert(warnings_.begin(), mesh_.warnings.begin(), mesh_.warnings.end());
-        warnings_.insert(warnings_.begin(), grid_.warnings.begin(), grid_.warnings.end());
-        for (const std::string& warning : warnings_)
-            print_warnings({verb_.inputs.size() > 1 ? fmt::format("{}: {}", file_.input, warning) : warning},
-                           verb_.common);
-        print(baked, maps);
-    }
-
-  private:
-    MapOptions map_options() const {
-        MapOptions options = verb_.map.map;
-        options.udim = file_.output.find("<UDIM>") != std::string::npos;
-        for (const std::string& high : verb_.map.high) {
-            options.high.push_back(is_grid(high) ? surface_of(read_grids(high), high) : with_surface(read_mesh(high)));
-            for (const std::string& warning : options.high.back().warnings)
-                print_warnings({fmt::format("{}: {}", high, warning)}, verb_.common);
-        }
-        if (!verb_.map.cage.empty())
-            options.cage = read_mesh(verb_.map.cage);
-        return options;
-    }
-
-    void read(BakeOptions& options) {
-        if (is_grid(file_.input)) {
-            grid_ = read_grids(file_.input, {verb_.grid_names});
-            mesh_ = surface_of(grid_, file_.input, verb_.adaptivity);
-        } else {
-            mesh_ = read_mesh(file_.input);
-            if (options.weld && mesh_.format == "STL") // its vertices come from joining anyway
-                mesh_ = join_vertices(mesh_, *std::exchange(options.weld, std::nullopt)).mesh;
-            if (!verb_.grid.empty())
-                grid_ = read_grids(verb_.grid, {verb_.grid_names});
-        }
-        if (mesh_.face_count() == 0 && is_gltf(file_.output))
-            throw InputError(fmt::format("{}: points are not written as glTF: write a .ply", file_.input));
-        if (!grid_.levels.empty())
-            options.grid = &grid_;
-        if (verb_.tessellate == "auto")
-            mesh_ = tessellate_for_ao(mesh_, options);
-        else if (!verb_.tessellate.empty()) {
-            const double diagonal = frame_of(mesh_.box()).diagonal;
-            mesh_ = tessellate(mesh_, {.longest = Length(verb_.tessellate).to_unit(diagonal) * diagonal});
-        }
-    }
-
-    void write(const Baked& baked) {
-        if (!verb_.write_grid.empty())
-            write_grids(baked.grid, verb_.write_grid);
-        if (!add(mesh_, baked, verb_.add) && extension(file_.output) == ".obj")
-            throw UsageError(file_.output +
-                             ": an .obj can store ao only as colours, but the input has its own: add --color "
-                             "ao to replace them, or write a .ply");
-        for (std::string& lost : write_mesh(mesh_, file_.output))
-            warnings_.push_back(std::move(lost));
-    }
-
-    std::size_t baked_vertices(const Baked& baked) const {
-        return baked.selected.empty()
-                   ? mesh_.vertex_count()
-                   : static_cast<std::size_t>(std::count(baked.selected.begin(), baked.selected.end(), 1));
-    }
-
-    void print(const Baked& baked, const std::optional<BakedMaps>& maps) const {
-        const auto or_null = [](bool there, const auto& value) {
-            return there ? nlohmann::ordered_json(value) : nullptr;
-        };
-        const GridSummary& grid = baked.grid_summary;
-        nlohmann::ordered_json size;
-        if (maps)
-            size = {maps->width, maps->height};
-        if (verb_.common.json)
-            print_json({{"input", file_.input},
-                        {"output", file_.output},
-                        {"vertices", mesh_.vertex_count()},
-                        {"faces", mesh_.face_count()},
-                        {"size", size},
-                        {"texels", or_null(maps.has_value(), maps ? maps->texels : 0)},
-                        {"overlaps", or_null(maps.has_value(), maps ? maps->overlaps : 0)},
-                        {"misses", or_null(maps && maps->reach > 0.0, maps ? maps->misses : 0)},
-                        {"reach", or_null(maps && maps->reach > 0.0, maps ? maps->reach : 0.0)},
-                        {"attributes", maps ? attributes_of(*maps) : names_of(baked.attributes)},
-                        {"method", or_null(!baked.method.empty(), baked.method.substr(0, baked.method.find(':')))},
-                        {"samples", or_null(baked.samples.has_value(), baked.samples.value_or(0))},
-                        {"evaluated", baked.evaluated},
-                        {"reason", or_null(!baked.reason.empty(), baked.reason)},
-                        {"radius", baked.radius},
-                        {"voxel", or_null(grid.levels > 0, grid.voxel)},
-                        {"levels", grid.levels},
-                        {"sign", or_null(grid.levels > 0, name_of(grid.sign))},
-                        {"clustered", or_null(grid.levels > 0, grid.clustered)},
-                        {"grid_bytes", grid.bytes},
-                        {"estimated_rmse", or_null(baked.rmse.has_value(), baked.rmse.value_or(0.0))},
-                        {"seconds", seconds_},
-                        {"peak_rss_bytes", peak_resident_bytes()},
-                        {"warnings", warnings_}},
-                       verb_.inputs.size() > 1);
-        else if (!verb_.common.quiet)
-            say(fmt::format(
-                "{}: {}{}", file_.output,
-                maps ? summary_of(*maps)
-                     : fmt::format("{} of {} vertices", names_of(baked.attributes), grouped(baked_vertices(baked))),
-                baked.method.empty() ? "" : method_text(baked)));
-    }
-
-    const BakeVerb& verb_;
-    const BatchFile& file_;
-    Mesh mesh_;
-    GridStack grid_;
-    nlohmann::ordered_json seconds_;
-    std::vector<std::string> warnings_;
-};
 
 void run(BakeVerb& verb) {
     verb.bake.threads = verb.common.threads;
@@ -343,27 +28,25 @@ void run(BakeVerb& verb) {
     verb.bake.up = verb.up.value_or(verb.bake.up);
     verb.bake.keep_grid = !verb.write_grid.empty();
     if (!verb.map.files.pack.empty()) {
-        ChannelSet packed;
+        EnumSet<MapAttribute> packed;
         for (const PackedChannel& channel : verb.map.files.pack)
-            if (channel.attribute && *channel.attribute < MapAttribute::normal)
-                packed = packed | static_cast<Channel>(*channel.attribute);
-            else if (channel.attribute)
-                verb.map.map.surface = verb.map.map.surface | *channel.attribute;
-        if (packed.empty() && verb.map.map.surface.empty())
+            if (channel.attribute)
+                packed = packed | *channel.attribute;
+        if (packed.empty())
             throw UsageError("--pack needs at least one attribute, such as ao,1");
-        verb.bake.attributes = packed;
+        choose_attributes(verb, packed);
     }
-    check_usage(verb);
+    check_options(verb);
     const std::vector<BatchFile> files = batch_files(verb.inputs, verb.output);
     for (const BatchFile& file : files)
-        check_format(verb, file.output);
+        check_output(verb, file.output);
     for (const std::string& occluder : verb.occluders) {
         verb.bake.occluders.push_back(read_mesh(occluder));
         for (const std::string& warning : verb.bake.occluders.back().warnings)
             print_warnings({fmt::format("{}: {}", occluder, warning)}, verb.common);
     }
     run_batch(files, verb.common,
-              [&](const BatchFile& file, const BakeProgress& progress) { BakeJob(verb, file).run(progress); });
+              [&](const BatchFile& file, const BakeProgress& progress) { bake_file(verb, file, progress); });
 }
 
 void add_files(CLI::App& app, BakeVerb& verb) {
@@ -411,17 +94,10 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
 void add_surface(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
     app.add_option_function<std::string>(
-           "--attributes",
-           [&verb](std::string names) {
-               verb.map.map.surface = take_surface_attributes(names);
-               verb.bake.attributes = names.empty() ? ChannelSet() : parse_attributes(names);
-           },
+           "--attributes", [&verb](const std::string& names) { choose_attributes(verb, parse_attributes(names)); },
            "What to bake, separated by commas: ao, convexity, bent_normal, thickness; with --method multiscale also "
            "ao_short, ao_long; with --high also normal, height, position, object")
-        ->check(parsable([](std::string names) {
-            if (take_surface_attributes(names).empty() || !names.empty())
-                parse_attributes(names);
-        }))
+        ->check(parsable(parse_attributes))
         ->type_name("NAMES")
         ->default_str("ao");
     add_choice<NormalSource>(

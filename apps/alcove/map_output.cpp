@@ -32,32 +32,21 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {*width, *height};
 }
 
-/// normal, height, position or object, or one of the channels.
-std::optional<MapAttribute> map_attribute(std::string_view name) {
-    for (auto attribute = MapAttribute::ao; attribute <= MapAttribute::object;
-         attribute = static_cast<MapAttribute>(static_cast<int>(attribute) + 1))
-        if (info(attribute).name == name)
-            return attribute;
-    return {};
-}
-
 /// Names of attributes and numbers, separated by commas.
 std::vector<PackedChannel> parse_pack(const std::string& text) {
     std::vector<PackedChannel> pack;
     std::istringstream words(text);
     for (std::string word; std::getline(words, word, ',');) {
-        const std::optional<MapAttribute> found = map_attribute(word);
-        float number = -1.0f;
+        float number = 0.0f;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-        const bool is_number = error == std::errc() && end == word.data() + word.size();
-        if (!found && !(is_number && number >= 0.0f && number <= 1.0f))
+        if (error != std::errc())
+            pack.push_back({map_attribute(word)});
+        else if (end == word.data() + word.size() && number >= 0.0f && number <= 1.0f)
+            pack.push_back({{}, number});
+        else
             throw InputError(fmt::format(
                 "takes attributes and numbers from 0 to 1, separated by commas, such as ao,thickness,0, not '{}'",
                 word));
-        if (found)
-            pack.push_back({found});
-        else
-            pack.push_back({{}, number});
     }
     return pack;
 }
@@ -73,19 +62,14 @@ int parse_margin(const std::string& text) {
 
 }
 
-EnumSet<MapAttribute> take_surface_attributes(std::string& names) {
-    EnumSet<MapAttribute> surface;
-    std::string others;
-    std::istringstream words(names);
-    for (std::string word; std::getline(words, word, ',');) {
-        const std::optional<MapAttribute> attribute = map_attribute(word);
-        if (attribute && *attribute >= MapAttribute::normal)
-            surface = surface | *attribute;
-        else
-            others += (others.empty() ? "" : ",") + word;
-    }
-    names = others;
-    return surface;
+EnumSet<MapAttribute> parse_attributes(const std::string& text) {
+    EnumSet<MapAttribute> attributes;
+    std::istringstream names(text);
+    for (std::string name; std::getline(names, name, ',');)
+        attributes = attributes | map_attribute(name);
+    if (attributes.empty())
+        map_attribute(text); // refuses it
+    return attributes;
 }
 
 bool MapRequest::given() const {

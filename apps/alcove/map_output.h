@@ -36,7 +36,7 @@ std::string attributes_of(const BakedMaps& maps);
 /// "ao of 306,123 texels of 2048 x 2048".
 std::string summary_of(const BakedMaps& maps);
 
-/// Removes normal, height, position and object from names separated by commas, and returns them.
-EnumSet<MapAttribute> take_surface_attributes(std::string& names);
+/// The attributes of "ao,normal". \throw InputError for an unknown name, or if there is none.
+EnumSet<MapAttribute> parse_attributes(const std::string& text);
 
 }

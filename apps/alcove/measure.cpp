@@ -1,5 +1,3 @@
-#include "inputs.h"
-#include "measured_results.h"
 #include "options.h"
 #include "weld.h"
 
@@ -8,16 +6,14 @@
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/measure/report.h"
-#include "alcove/mesh/files.h"
-#include "alcove/vdb/vdb_file.h"
+#include "alcove/measure/sweep.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <charconv>
-#include <filesystem>
+#include <cmath>
+#include <functional>
 #include <memory>
 #include <sstream>
 
@@ -29,21 +25,6 @@ struct MeasureOptions {
     std::vector<std::string> inputs;
     std::string radius = "10%", voxel = "auto", methods, report, json;
     std::optional<Length> weld;
-};
-
-/// A length and its text on the command line.
-struct WrittenLength {
-    std::string text;
-    Length length;
-};
-
-/// A requested measurement.
-struct Job {
-    const std::string* mesh;
-    const WrittenLength* radius;
-    const WrittenLength* voxel; ///< null for methods without a grid
-    MethodChoice choice;
-    Asked asked;
 };
 
 std::vector<std::string> split(const std::string& text) {
@@ -109,139 +90,6 @@ std::vector<MethodChoice> parse_choices(const std::string& text) {
     return choices;
 }
 
-Asked asked_of(const std::string& mesh, const WrittenLength& radius, const WrittenLength* voxel,
-               const MethodChoice& choice) {
-    std::error_code missing;
-    const std::uintmax_t bytes = std::filesystem::file_size(mesh, missing);
-    return {{"mesh", mesh},
-            {"bytes", missing ? 0 : bytes},
-            {"method", choice.method->name},
-            {"samples", choice.samples},
-            {"radius", radius.text},
-            {"voxel", voxel ? Asked(voxel->text) : Asked()},
-            {"version", ALCOVE_VERSION}};
-}
-
-/// All jobs without duplicates. Jobs with the same mesh, radius and grid are adjacent.
-std::vector<Job> plan_jobs(const std::vector<std::string>& meshes, const std::vector<WrittenLength>& radii,
-                           const std::vector<WrittenLength>& voxels, const std::vector<MethodChoice>& choices) {
-    std::vector<const WrittenLength*> grids{nullptr};
-    for (const WrittenLength& voxel : voxels)
-        grids.push_back(&voxel);
-    std::vector<Job> jobs;
-    for (const std::string& mesh : meshes)
-        for (const WrittenLength& radius : radii)
-            for (const WrittenLength* voxel : grids)
-                for (const MethodChoice& choice : choices) {
-                    if (choice.method->needs_grid != (voxel != nullptr))
-                        continue;
-                    Job job{&mesh, &radius, voxel, choice, asked_of(mesh, radius, voxel, choice)};
-                    if (std::none_of(jobs.begin(), jobs.end(),
-                                     [&](const Job& known) { return known.asked == job.asked; }))
-                        jobs.push_back(std::move(job));
-                }
-    return jobs;
-}
-
-/// Caches the inputs that consecutive jobs share, and shows the progress of all jobs.
-class MeasurementInputs {
-  public:
-    MeasurementInputs(const std::vector<Job>& jobs, const std::optional<Length>& weld, Pictures pictures,
-                      ProgressMode mode)
-        : weld_(weld), pictures_(pictures), meter_(mode, "measuring") {
-        const Job* last = nullptr;
-        for (const Job& job : jobs) {
-            all_work_ += work_of(job.choice) + (same_truth(last, job) ? 0.0 : truth_work) +
-                         (same_grid(last, job) ? 0.0 : grid_work);
-            last = &job;
-        }
-    }
-
-    /// Call with the jobs in the order given to the constructor. Reuses the inputs shared with the previous job.
-    /// \throw as read_mesh(), build_grid() and alcove::measure().
-    Measurement measure(const Job& job) {
-        if (!last_ || last_->mesh != job.mesh) {
-            mesh_.reset();
-            mesh_.emplace(*job.mesh, is_grid(*job.mesh) ? surface_of(read_grids(*job.mesh), *job.mesh)
-                                                        : read_welded(*job.mesh, weld_));
-        }
-        const double diagonal = mesh_->frame.diagonal;
-        const float radius = as_usage([&] { return job.radius->length.to_unit(diagonal); });
-        if (!same_truth(last_, job)) {
-            grid_.reset();
-            truth_ = make_truth(*mesh_, radius, {.labels = labels_of_pilot}, next(truth_work));
-        }
-        if (!same_grid(last_, job)) {
-            grid_.reset();
-            const Length& voxel = job.voxel->length;
-            grid_.emplace(
-                build_grid(*mesh_, radius, voxel.value > 0.0 ? voxel.to_unit(diagonal) : 0.0f, next(grid_work)));
-        }
-        last_ = &job;
-        return alcove::measure(*mesh_, truth_, grid_ ? &*grid_ : nullptr, job.choice, pictures_,
-                               next(work_of(job.choice)));
-    }
-
-  private:
-    // In rays per vertex, or work that takes about as long.
-    static constexpr double truth_work = TruthOptions{}.rays, grid_work = 100.0;
-    static double work_of(const MethodChoice& choice) { return 5.0 + choice.samples; }
-
-    static bool same_truth(const Job* a, const Job& b) { return a && a->mesh == b.mesh && a->radius == b.radius; }
-    static bool same_grid(const Job* a, const Job& b) { return !b.voxel || (same_truth(a, b) && a->voxel == b.voxel); }
-    Progress next(double work) {
-        done_work_ += step_;
-        step_ = work;
-        return [this](double done) { meter_((done_work_ + done * step_) / all_work_); };
-    }
-
-    std::optional<Length> weld_;
-    Pictures pictures_;
-    ProgressMeter meter_;
-    double all_work_ = 0.0, done_work_ = 0.0, step_ = 0.0;
-    const Job* last_ = nullptr;
-    std::optional<MeasuredMesh> mesh_;
-    Truth truth_;
-    std::optional<MeasuredGrid> grid_;
-};
-
-/// The error messages of meshes that cannot be measured, and whether one of the meshes is to blame.
-struct Failures {
-    std::vector<std::string> messages;
-    bool bad_input = false;
-};
-
-/// Measures the jobs that are not in the results. Skips meshes that cannot be measured.
-Failures measure_missing(const std::vector<Job>& jobs, MeasuredResults& results, const MeasureOptions& options) {
-    std::vector<Job> missing;
-    std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),
-                 [&](const Job& job) { return results.find(job.asked) == nullptr; });
-    MeasurementInputs inputs(missing, options.weld, options.report.empty() ? Pictures::none : Pictures::painted,
-                             options.common.progress_mode());
-    Failures failures;
-    const std::string* failed = nullptr;
-    for (const Job& job : missing) {
-        if (job.mesh == failed)
-            continue;
-        const auto fail = [&](const std::exception& error) {
-            const std::string what = error.what();
-            failures.messages.push_back(what.starts_with(*job.mesh) ? what : *job.mesh + ": " + what);
-            failures.bad_input |= dynamic_cast<const MemoryError*>(&error) == nullptr;
-            failed = job.mesh;
-        };
-        try {
-            results.add(job.asked, inputs.measure(job));
-        } catch (const InputError& error) {
-            fail(error);
-        } catch (const LimitError& error) {
-            fail(error);
-        } catch (const MemoryError& error) {
-            fail(error);
-        }
-    }
-    return failures;
-}
-
 void print(const std::vector<Measurement>& measurements) {
     std::string mesh;
     for (const Measurement& m : measurements) {
@@ -259,38 +107,33 @@ void print(const std::vector<Measurement>& measurements) {
 
 void run(const MeasureOptions& options) {
     const ThreadLimit limit(options.common.threads);
-    const std::vector<WrittenLength> radii = parse_radii(options.radius);
-    const std::vector<WrittenLength> voxels = parse_voxels(options.voxel);
-    std::vector<Job> jobs = plan_jobs(options.inputs, radii, voxels, parse_choices(options.methods));
-    for (Job& job : jobs)
-        if (options.weld)
-            job.asked["weld"] = options.weld->unit == Length::Unit::diagonal
-                                    ? fmt::format("{}%", 100.0 * options.weld->value)
-                                    : fmt::format("{}", options.weld->value);
+    ProgressMeter meter(options.common.progress_mode(), "measuring");
+    const SweepOptions request{.meshes = options.inputs,
+                               .radii = parse_radii(options.radius),
+                               .voxels = parse_voxels(options.voxel),
+                               .methods = parse_choices(options.methods),
+                               .weld = options.weld,
+                               .results = options.json,
+                               .pictures = options.report.empty() ? Pictures::none : Pictures::painted,
+                               .progress = std::ref(meter)};
     if (!options.report.empty()) {
         if (extension(options.report) != ".html" && extension(options.report) != ".htm")
             throw UsageError(options.report + ": reports are written as .html: use this extension");
         const AtomicFile probe(options.report);
     }
-    MeasuredResults results(options.json);
-    const auto [failures, bad_input] = measure_missing(jobs, results, options);
-
-    std::vector<Measurement> measurements;
-    for (const Job& job : jobs)
-        if (const Measurement* measurement = results.find(job.asked))
-            measurements.push_back(*measurement);
+    const Sweep done = sweep(request);
     if (!options.report.empty()) {
         AtomicFile page(options.report);
-        page.write(report(measurements));
+        page.write(report(done.measurements));
         page.commit();
     }
     if (!options.common.quiet)
-        print(measurements);
-    if (!failures.empty()) {
-        print_warnings({failures.begin() + 1, failures.end()}, options.common);
-        if (bad_input)
-            throw InputError(failures.front());
-        throw std::runtime_error(failures.front());
+        print(done.measurements);
+    if (!done.failures.empty()) {
+        print_warnings({done.failures.begin() + 1, done.failures.end()}, options.common);
+        if (done.bad_input)
+            throw InputError(done.failures.front());
+        throw std::runtime_error(done.failures.front());
     }
 }
 

@@ -436,22 +436,6 @@ class MapBake {
 
 }
 
-MapAttributeInfo info(MapAttribute attribute) {
-    switch (attribute) {
-    case MapAttribute::normal:
-        return {"normal", 3, 0.0f, true};
-    case MapAttribute::height:
-        return {"height", 1, 0.0f, false};
-    case MapAttribute::position:
-        return {"position", 3, 0.0f, false};
-    case MapAttribute::object:
-        return {"object", 1, 0.0f, false};
-    default:
-        const ChannelInfo& channel = info(static_cast<Channel>(attribute));
-        return {channel.name, channel.components, channel.missing, attribute == MapAttribute::bent_normal};
-    }
-}
-
 void check(const MapOptions& options) {
     const auto within = [](int value, int most) { return value >= 1 && value <= most; };
     if (!within(options.width, largest_side) || !within(options.height, largest_side))

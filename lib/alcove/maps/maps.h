@@ -48,6 +48,13 @@ constexpr MapAttribute attribute_of(Channel channel) {
 }
 MapAttributeInfo info(MapAttribute attribute);
 
+/// \throw InputError for an unknown name, with all names.
+MapAttribute map_attribute(std::string_view name);
+
+EnumSet<MapAttribute> attributes_of(ChannelSet baked);
+/// Those of the attributes that a bake gives, which exclude the surface of high meshes.
+ChannelSet channels_of(EnumSet<MapAttribute> attributes);
+
 struct MapOptions {
     int width = 2048, height = 2048; ///< texels, in [1, 16384]
     int uv_set = 0;                  ///< of a glTF file: that of TEXCOORD_N

@@ -1,4 +1,4 @@
-#include "measured_results.h"
+#include "alcove/measure/detail/results_file.h"
 
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/types.h"
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-namespace alcove::cli {
+namespace alcove {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -78,7 +78,7 @@ Measurement measurement_of(const Json& json) {
 
 }
 
-MeasuredResults::MeasuredResults(std::string file) : file_(std::move(file)) {
+ResultsFile::ResultsFile(std::string file) : file_(std::move(file)) {
     if (file_.empty())
         return;
     const AtomicFile probe(file_);
@@ -94,23 +94,23 @@ MeasuredResults::MeasuredResults(std::string file) : file_(std::move(file)) {
     }
 }
 
-const Measurement* MeasuredResults::find(const Asked& asked) const {
+const Measurement* ResultsFile::find(const MeasurementKey& key) const {
     const auto found =
-        std::find_if(results_.begin(), results_.end(), [&](const Result& result) { return result.asked == asked; });
+        std::find_if(results_.begin(), results_.end(), [&](const Result& result) { return result.key == key; });
     return found == results_.end() ? nullptr : &found->measurement;
 }
 
-void MeasuredResults::add(const Asked& asked, Measurement measurement) {
-    results_.push_back({asked, std::move(measurement)});
+void ResultsFile::add(const MeasurementKey& key, Measurement measurement) {
+    results_.push_back({key, std::move(measurement)});
     if (!file_.empty())
         write();
 }
 
-void MeasuredResults::write() const {
+void ResultsFile::write() const {
     Json all = Json::array();
     for (const Result& result : results_) {
         Json json = json_of(result.measurement);
-        json["asked"] = result.asked;
+        json["asked"] = result.key;
         all.push_back(std::move(json));
     }
     AtomicFile target(file_);

@@ -1,4 +1,4 @@
-/// Measurements in a JSON file, so that an interrupted run can continue.
+/// Measurements in a JSON file, so that an interrupted sweep can continue.
 #pragma once
 
 #include "alcove/measure/measure.h"
@@ -8,26 +8,26 @@
 #include <string>
 #include <vector>
 
-namespace alcove::cli {
+namespace alcove {
 
-/// The key of a measurement: mesh, its file size in bytes, method, samples, radius and voxel as written on the command
-/// line, and version.
-using Asked = nlohmann::ordered_json;
+/// The key of a measurement: mesh, its file size in bytes, method, samples, radius and voxel as the user wrote them, and
+/// version.
+using MeasurementKey = nlohmann::ordered_json;
 
-class MeasuredResults {
+class ResultsFile {
   public:
     /// Reads the file if it exists; an empty name keeps everything in memory. \throw InputError if the file exists but
     /// does not contain measurements; IoError if it cannot be written.
-    explicit MeasuredResults(std::string file);
+    explicit ResultsFile(std::string file);
 
     /// Null if not measured yet.
-    const Measurement* find(const Asked& asked) const;
+    const Measurement* find(const MeasurementKey& key) const;
     /// Adds a measurement and rewrites the file. Results of other inputs are kept. \throw IoError.
-    void add(const Asked& asked, Measurement measurement);
+    void add(const MeasurementKey& key, Measurement measurement);
 
   private:
     struct Result {
-        Asked asked;
+        MeasurementKey key;
         Measurement measurement;
     };
     void write() const;

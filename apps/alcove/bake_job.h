@@ -1,0 +1,13 @@
+/// Bakes one input: reads, bakes, writes and prints.
+#pragma once
+
+#include "bake_batch.h"
+#include "bake_verb.h"
+
+namespace alcove::cli {
+
+/// \throw as read_mesh(), bake(), bake_maps() and write_mesh(); std::runtime_error if --strict is given and the error
+/// target is missed.
+void bake_file(const BakeVerb& verb, const BatchFile& file, const BakeProgress& progress);
+
+}
