@@ -5,6 +5,8 @@
 #include "alcove/bake/detail/parts.h"
 #include "alcove/bake/detail/provenance.h"
 #include "alcove/bake/detail/selection.h"
+#include "alcove/bake/detail/surface_points.h"
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/detail/stopwatch.h"
 #include "alcove/base/parallel.h"
@@ -157,22 +159,23 @@ std::vector<Surfel> surfels_of_vertices(const PreparedMesh& prepared, NormalSour
     return surfels;
 }
 
-std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, std::span<const SurfacePoint> points) {
+std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, const SurfacePoints& points) {
     const Mesh& mesh = *prepared.whole; // whose faces the points refer to
-    std::vector<Surfel> surfels;
-    surfels.reserve(points.size());
-    for (const SurfacePoint& point : points) {
-        if (point.face != no_face && point.face >= mesh.face_count())
-            throw InputError(
-                fmt::format("a point refers to face {}, but the mesh has {} faces", point.face, mesh.face_count()));
-        Vec3 normal = unit_or_zero(Vec3d(point.normal));
-        if (normal == Vec3(0.0f) && point.face != no_face)
-            normal = face_normal(mesh, point.face);
-        if (!is_finite(point.position))
-            surfels.push_back({Vec3(0.0f), Vec3(0.0f)});
-        else
-            surfels.push_back({prepared.frame.to_unit(point.position), normal});
-    }
+    std::vector<Surfel> surfels = huge_vector<Surfel>(points.count, {Vec3(0.0f), Vec3(0.0f)});
+    parallel_for(points.count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const SurfacePoint point = points.point(i);
+            if (point.face != no_face && point.face >= mesh.face_count())
+                throw InputError(
+                    fmt::format("a point refers to face {}, but the mesh has {} faces", point.face, mesh.face_count()));
+            if (!is_finite(point.position))
+                continue;
+            surfels[i].position = prepared.frame.to_unit(point.position);
+            surfels[i].normal = unit_or_zero(Vec3d(point.normal));
+            if (surfels[i].normal == Vec3(0.0f) && point.face != no_face)
+                surfels[i].normal = face_normal(mesh, point.face);
+        }
+    });
     return surfels;
 }
 
@@ -287,15 +290,14 @@ Baked bake_joined(Mesh mesh, const BakeOptions& options) {
     return baked;
 }
 
-Baked bake_on_surface(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options,
+Baked bake_on_surface(const Mesh& mesh, const SurfacePoints& points, const BakeOptions& options,
                       bool is_reconstructed) {
     const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); };
-    std::vector<std::uint32_t> faces(points.size()); // the search for contacts visits points at random
-    std::transform(points.begin(), points.end(), faces.begin(), [](const SurfacePoint& point) { return point.face; });
     const auto is_own_face = [&](std::size_t i, const Triangle& t) {
-        if (faces[i] == no_face)
+        const std::uint32_t face_of_point = points.face(i);
+        if (face_of_point == no_face)
             return false;
-        const std::span<const std::uint32_t> face = mesh.face(faces[i]);
+        const std::span<const std::uint32_t> face = mesh.face(face_of_point);
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
             return std::find(face.begin(), face.end(), corner) != face.end();
         });
@@ -310,7 +312,7 @@ Baked bake_on_surface(const Mesh& mesh, std::span<const SurfacePoint> points, co
 }
 
 /// Bakes the points of a mesh without faces on their surface.
-Baked bake_points(const Mesh& mesh, const BakeOptions& options) {
+Baked bake_point_cloud(const Mesh& mesh, const BakeOptions& options) {
     const ThreadLimit limit(options.threads);
     check(options);
     if (options.self || options.weld)
@@ -322,9 +324,11 @@ Baked bake_points(const Mesh& mesh, const BakeOptions& options) {
     const float radius = radius_of(options, frame_of(mesh.box()), {});
     const PointSurface surface =
         surface_of_points(mesh, {options.point_size, std::min(radius, large_radius) / voxels_per_radius});
-    std::vector<SurfacePoint> points(mesh.vertex_count());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        points[i] = {surface.positions[i], surface.normals[i], surface.faces[i]};
+    const SurfacePoints points{mesh.vertex_count(),
+                               [&](std::size_t i) {
+                                   return SurfacePoint{surface.positions[i], surface.normals[i], surface.faces[i]};
+                               },
+                               [&](std::size_t i) { return surface.faces[i]; }};
     BakeOptions on_surface = options;
     if (options.sign == SignChoice::automatic)
         on_surface.sign = SignChoice::sheet; // scans have holes
@@ -404,11 +408,18 @@ std::string GridSummary::text() const {
 
 Baked bake(const Mesh& mesh, const BakeOptions& options) {
     if (mesh.face_count() == 0)
-        return bake_points(mesh, options);
+        return bake_point_cloud(mesh, options);
     return options.weld ? bake_joined(mesh, options) : bake_vertices(mesh, options);
 }
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
+    return bake_points(mesh,
+                       {points.size(), [points](std::size_t i) { return points[i]; },
+                        [points](std::size_t i) { return points[i].face; }},
+                       options);
+}
+
+Baked bake_points(const Mesh& mesh, const SurfacePoints& points, const BakeOptions& options) {
     return bake_on_surface(mesh, points, options, false);
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -40,37 +41,44 @@ fs::path of_attribute(const fs::path& file, std::string_view attribute, bool is_
 class PngValues {
   public:
     PngValues(const BakedMaps& maps, const MapLayer& layer, int bits)
-        : maps_(maps), layer_(layer), components_(info(layer.attribute).components), most_((1 << bits) - 1) {}
+        : values_(layer.values), components_(info(layer.attribute).components), most_(float((1 << bits) - 1)) {
+        const auto map = [&](double from, double to) { // this range to [0, 1]
+            for (Range& range : ranges_)
+                range = {static_cast<float>(1.0 / (to - from)), static_cast<float>(-from / (to - from))};
+        };
+        if (layer.attribute == MapAttribute::thickness)
+            map(0.0, maps.thickest);
+        else if (layer.attribute == MapAttribute::height)
+            map(-maps.reach, maps.reach);
+        else if (layer.attribute == MapAttribute::object)
+            map(0.0, most_);
+        else if (info(layer.attribute).is_direction)
+            map(-1.0, 1.0);
+        else if (layer.attribute == MapAttribute::position)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double low = maps.box.min[axis], size = maps.box.max[axis] - low;
+                ranges_[static_cast<std::size_t>(axis)] =
+                    size > 0.0 ? Range{static_cast<float>(1.0 / size), static_cast<float>(-low / size)}
+                               : Range{0.0f, 0.5f};
+            }
+    }
 
     /// The i-th value of the layer.
     std::uint16_t operator()(std::size_t i) const {
-        const double share = std::clamp(share_of(i, double(layer_.values[i])), 0.0, 1.0);
-        return static_cast<std::uint16_t>(std::lround(most_ * share));
+        const Range& range = ranges_[components_ == 1 ? 0 : i % components_];
+        const float share = std::clamp(range.scale * values_[i] + range.offset, 0.0f, 1.0f);
+        return static_cast<std::uint16_t>(most_ * share + 0.5f);
     }
 
   private:
-    double share_of(std::size_t i, double value) const {
-        switch (layer_.attribute) {
-        case MapAttribute::thickness:
-            return value / maps_.thickest;
-        case MapAttribute::height:
-            return 0.5 + 0.5 * value / maps_.reach;
-        case MapAttribute::position: {
-            const auto axis = static_cast<int>(i % components_);
-            const double size = maps_.box.max[axis] - maps_.box.min[axis];
-            return size > 0.0 ? (value - maps_.box.min[axis]) / size : 0.5;
-        }
-        case MapAttribute::object:
-            return value / most_;
-        default:
-            return info(layer_.attribute).is_direction ? 0.5 + 0.5 * value : value;
-        }
-    }
+    struct Range {
+        float scale = 1.0f, offset = 0.0f;
+    };
 
-    const BakedMaps& maps_;
-    const MapLayer& layer_;
+    const std::vector<float>& values_;
     std::size_t components_;
-    double most_;
+    float most_;
+    std::array<Range, 3> ranges_{};
 };
 
 std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {

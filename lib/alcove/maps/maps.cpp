@@ -1,7 +1,9 @@
 #include "alcove/maps/maps.h"
 
 #include "alcove/bake/detail/selection.h"
+#include "alcove/bake/detail/surface_points.h"
 #include "alcove/base/detail/limits.h"
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/maps/detail/padding.h"
@@ -215,40 +217,34 @@ class MapBake {
 
     std::size_t texel_of(std::size_t sample) const {
         const auto n = static_cast<std::size_t>(options_.subsamples);
-        return sample / (n * width_) / n * width_ + sample % (n * width_) / n;
+        return n == 1 ? sample : sample / (n * width_) / n * width_ + sample % (n * width_) / n;
     }
 
     void bake_samples() {
-        const std::vector<ProjectedTo> points = points_of();
-        std::vector<std::uint32_t> hit; // of the samples
-        std::vector<SurfacePoint> targets;
-        for (std::uint32_t i = 0; i < samples_.size(); ++i)
-            if (points[i].hit) {
-                hit.push_back(i);
-                targets.push_back(points[i].point);
-            }
-        if (!hit.empty()) {
+        std::vector<ProjectedTo> projected;
+        if (projection_)
+            projected = project_samples();
+        if (!samples_.empty()) {
             Baked baked;
             if (!bake_.attributes.empty())
-                baked = bake(surface(), targets, bake_);
+                baked = bake_points(surface(), projection_ ? points_of(projected) : points_of_samples(), bake_);
             for (std::size_t a = 0; a < attributes_.size(); ++a) {
                 const MapAttribute attribute = attributes_[a];
                 std::vector<float> values = attribute < MapAttribute::normal
                                                 ? std::move(baked.values[static_cast<Channel>(attribute)])
-                                                : values_of_surface(attribute, points, hit);
+                                                : values_of_surface(attribute, projected);
                 if (info(attribute).is_direction)
-                    turn_directions(hit, values);
+                    turn_directions(values);
                 const std::size_t components = info(attribute).components;
-                for (std::size_t i = 0; i < hit.size(); ++i) {
-                    const Sample& sample = samples_[hit[i]];
-                    MapLayer& layer = tiles_[sample.tile].map.layers[a];
+                for (std::size_t i = 0; i < samples_.size(); ++i) {
+                    MapLayer& layer = tiles_[samples_[i].tile].map.layers[a];
                     for (std::size_t c = 0; c < components; ++c)
-                        add(layer, components * texel_of(sample.index) + c, values[components * i + c]);
+                        add(layer, components * texel_of(samples_[i].index) + c, values[components * i + c]);
                 }
             }
-            for (const std::uint32_t i : hit)
-                ++tiles_[samples_[i].tile].counts[texel_of(samples_[i].index)];
-            merge(std::move(baked), hit.size());
+            for (const Sample& sample : samples_)
+                ++tiles_[sample.tile].counts[texel_of(sample.index)];
+            merge(std::move(baked), samples_.size());
         }
         samples_.clear();
     }
@@ -257,19 +253,42 @@ class MapBake {
         layer.values[at] = layer.attribute == MapAttribute::object ? value : layer.values[at] + value;
     }
 
-    std::vector<ProjectedTo> points_of() const {
-        std::vector<ProjectedTo> points(projection_ ? 0 : samples_.size());
-        std::vector<ProjectedFrom> from(projection_ ? samples_.size() : 0);
+    SurfacePoints points_of_samples() const {
+        return {samples_.size(),
+                [this](std::size_t i) {
+                    const auto [faces, triangle, weights] = place_of(samples_[i]);
+                    return faces->point(triangle, weights);
+                },
+                [this](std::size_t i) {
+                    const OpenTile& tile = tiles_[samples_[i].tile];
+                    return tile.faces->face(tile.owners.triangles[samples_[i].index]);
+                }};
+    }
+
+    static SurfacePoints points_of(const std::vector<ProjectedTo>& projected) {
+        return {projected.size(), [&](std::size_t i) { return projected[i].point; },
+                [&](std::size_t i) { return projected[i].point.face; }};
+    }
+
+    /// Where the samples lie on the high meshes. Drops those that miss them.
+    std::vector<ProjectedTo> project_samples() {
+        std::vector<ProjectedFrom> from(samples_.size());
         parallel_for(samples_.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const auto [faces, triangle, weights] = place_of(samples_[i]);
-                if (projection_)
-                    from[i] = faces->projected_from(triangle, weights, maps_.reach);
-                else
-                    points[i] = {faces->point(triangle, weights), 0.0f, true};
+                from[i] = faces->projected_from(triangle, weights, maps_.reach);
             }
         });
-        return projection_ ? projection_->project(from, maps_.reach) : points;
+        std::vector<ProjectedTo> to = projection_->project(from, maps_.reach);
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < to.size(); ++i)
+            if (to[i].hit) {
+                to[kept] = to[i];
+                samples_[kept++] = samples_[i];
+            }
+        to.resize(kept);
+        samples_.resize(kept);
+        return to;
     }
 
     /// A point of a triangle.
@@ -284,13 +303,11 @@ class MapBake {
         return {tile.faces, triangle, weights_at(tile.faces->uvs()[triangle], tile.uvs, sample.index)};
     }
 
-    std::vector<float> values_of_surface(MapAttribute attribute, const std::vector<ProjectedTo>& points,
-                                         const std::vector<std::uint32_t>& hit) const {
+    std::vector<float> values_of_surface(MapAttribute attribute, const std::vector<ProjectedTo>& points) const {
         std::vector<float> values;
-        for (const std::uint32_t i : hit) {
-            const SurfacePoint& point = points[i].point;
+        for (const auto& [point, height, hit] : points) {
             if (attribute == MapAttribute::height)
-                values.push_back(points[i].height);
+                values.push_back(height);
             else if (attribute == MapAttribute::object)
                 values.push_back(
                     1.0f + static_cast<float>(std::upper_bound(object_ends_.begin(), object_ends_.end(), point.face) -
@@ -303,12 +320,12 @@ class MapBake {
         return values;
     }
 
-    /// Into the axes of the options.
-    void turn_directions(const std::vector<std::uint32_t>& hit, std::vector<float>& directions) const {
-        for (std::size_t i = 0; i < hit.size(); ++i) {
+    /// Turns the directions of the samples into the axes of the options.
+    void turn_directions(std::vector<float>& directions) const {
+        for (std::size_t i = 0; i < samples_.size(); ++i) {
             float* const d = &directions[3 * i];
             if (has_tangents_) {
-                const Place place = place_of(samples_[hit[i]]);
+                const Place place = place_of(samples_[i]);
                 const Vec3 local = place.faces->to_tangent(place.triangle, place.weights, {d[0], d[1], d[2]});
                 d[0] = local.x, d[1] = local.y, d[2] = local.z;
             }
@@ -428,8 +445,8 @@ class MapBake {
     std::optional<Projection> projection_;
     std::vector<std::size_t> object_ends_; // of the high meshes, in the faces of high_
     std::vector<OpenTile> tiles_;
-    std::size_t finished_ = 0;    // of the tiles
-    std::vector<Sample> samples_; // of the batch
+    std::size_t finished_ = 0;   // of the tiles
+    HugeVector<Sample> samples_; // of the batch
     BakedMaps maps_;
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;
 };

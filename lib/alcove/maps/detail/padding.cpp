@@ -89,11 +89,17 @@ std::vector<std::uint32_t> nearest_covered(std::span<const std::uint8_t> covered
         Envelope envelope(columns);
         std::vector<std::int64_t> heights(columns);
         for (std::size_t y = begin; y < end; ++y) {
+            const std::uint8_t* const is_covered = covered.data() + y * columns;
             for (std::size_t x = 0; x < columns; ++x) {
                 const std::int64_t away = std::int64_t{row_of[y * columns + x]} - static_cast<std::int64_t>(y);
-                heights[x] = row_of[y * columns + x] < 0 ? far : away * away;
+                // Texels between covered ones are nearest to themselves only.
+                const bool is_inside =
+                    is_covered[x] && x > 0 && is_covered[x - 1] && x + 1 < columns && is_covered[x + 1];
+                heights[x] = row_of[y * columns + x] < 0 || away * away > most || is_inside ? far : away * away;
             }
             envelope.each(heights, [&](std::size_t x, std::size_t site) {
+                if (is_covered[x])
+                    return;
                 const std::int64_t across = static_cast<std::int64_t>(x) - static_cast<std::int64_t>(site);
                 if (across * across + heights[site] <= most)
                     nearest[y * columns + x] = static_cast<std::uint32_t>(

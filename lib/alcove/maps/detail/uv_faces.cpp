@@ -82,12 +82,10 @@ UvFaces::UvFaces(const Mesh& mesh, const UvFacesOptions& options) : mesh_(mesh) 
 
 SurfacePoint UvFaces::point(std::uint32_t triangle, const Vec3d& weights) const {
     SurfacePoint point{.face = faces_[triangle]};
-    Vec3d normal(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
         point.position += weights[static_cast<int>(k)] * mesh_.positions[vertices_[triangle][k]];
-        normal += weights[static_cast<int>(k)] * Vec3d(normals_[triangle][k]);
+        point.normal += static_cast<float>(weights[static_cast<int>(k)]) * normals_[triangle][k];
     }
-    point.normal = unit_or_zero(normal);
     return point;
 }
 

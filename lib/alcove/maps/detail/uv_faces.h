@@ -32,6 +32,9 @@ class UvFaces {
     std::span<const UvTriangle> uvs() const { return uvs_; }
     /// Triangles with an area but without usable UVs, or without area in UV space.
     std::size_t without_texels() const { return without_texels_; }
+    /// The face of a triangle.
+    std::uint32_t face(std::uint32_t triangle) const { return faces_[triangle]; }
+    /// Its normal is not of unit length.
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what projected_from() needs.
     void add_directions();

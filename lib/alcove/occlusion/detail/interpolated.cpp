@@ -60,33 +60,33 @@ class Interpolator {
                  const Occluders& occluders, const Interpolation& interpolation, const PrepareSurfels& prepare,
                  const Progress& progress)
         : run_(run), occluders_(occluders), interpolation_(interpolation), prepare_(prepare), progress_(progress),
-          used_(run.wanted.has(Channel::bent_normal) ? 4 : 1), ranks_(order.size()) {
-        reserve_huge(surfels_, order.size());
+          surfels_(surfels), used_(run.wanted.has(Channel::bent_normal) ? 4 : 1), ranks_(order.size()) {
+        places_.reserve(order.size());
         reserve_huge(indices_, order.size());
+        states_.reserve(order.size());
         constexpr std::size_t ahead = 32;
         for (std::size_t i = 0; i < order.size(); ++i) {
             if (i + ahead < order.size())
                 __builtin_prefetch(&surfels[order[i + ahead]]);
             const Surfel& surfel = surfels[order[i]];
-            if (surfels_.empty() || !is_same(surfel, surfels_.back())) {
-                surfels_.push_back(surfel);
+            if (indices_.empty() || !is_same(surfel, surfels[indices_.back()])) {
+                places_.push_back({surfel.position, surfel.normal});
                 indices_.push_back(order[i]);
+                states_.push_back(surfel.covered ? State::to_evaluate : State::unknown);
             }
-            ranks_[i] = static_cast<std::uint32_t>(surfels_.size() - 1);
+            ranks_[i] = static_cast<std::uint32_t>(indices_.size() - 1);
         }
-        values_.resize(surfels_.size());
-        states_ = huge_vector(surfels_.size(), State::unknown);
+        values_.resize(used_ * count());
     }
 
     /// \return false if more than the allowed share would have to be evaluated
     bool run() {
         for (std::size_t stride = interpolation_.stride;; stride /= 4) {
             std::vector<std::uint32_t> next;
-            for (std::uint32_t i = 0; i < surfels_.size(); ++i)
-                if (states_[i] == State::unknown && (is_chosen(i, stride) || surfels_[i].covered))
+            for (std::uint32_t i = 0; i < count(); ++i)
+                if (states_[i] == State::to_evaluate || (states_[i] == State::unknown && is_chosen(i, stride)))
                     next.push_back(i);
-            if (static_cast<double>(evaluated_ + next.size()) >
-                interpolation_.max_share * static_cast<double>(surfels_.size()))
+            if (static_cast<double>(evaluated_ + next.size()) > interpolation_.max_share * static_cast<double>(count()))
                 return false;
             evaluate_at(next);
             if (stride == 1)
@@ -98,14 +98,20 @@ class Interpolator {
 
     /// The share of the surfels that were evaluated.
     double share() const {
-        return static_cast<double>(evaluated_) / static_cast<double>(std::max<std::size_t>(surfels_.size(), 1));
+        return static_cast<double>(evaluated_) / static_cast<double>(std::max<std::size_t>(count(), 1));
     }
 
     /// The values of the surfel at a rank of the order given.
-    const SurfelValues& values(std::size_t rank) const { return values_[ranks_[rank]]; }
+    const float* values(std::size_t rank) const { return &values_[used_ * ranks_[rank]]; }
 
   private:
-    enum class State : std::uint8_t { unknown, evaluated, interpolated };
+    enum class State : std::uint8_t { unknown, to_evaluate, evaluated, interpolated };
+    /// Where a surfel is; as there are millions, nothing else of it is copied.
+    struct Place {
+        Vec3 position, normal;
+    };
+
+    std::size_t count() const { return indices_.size(); }
 
     /// One of each `stride` surfels, at random, as those of two sides or of grids alternate along the curve.
     static bool is_chosen(std::uint32_t rank, std::size_t stride) {
@@ -113,23 +119,24 @@ class Interpolator {
     }
 
     void evaluate_at(const std::vector<std::uint32_t>& chosen) {
-        std::vector<Surfel> some = pick(surfels_, chosen);
+        const std::vector<std::uint32_t> indices = pick(indices_, chosen);
+        std::vector<Surfel> some = pick(surfels_, indices);
         if (prepare_)
-            prepare_(pick(indices_, chosen), some);
+            prepare_(indices, some);
         std::vector<std::uint32_t> order(some.size());
         std::iota(order.begin(), order.end(), 0u);
         Progress progress;
         if (progress_)
             progress = [&](double done) {
                 progress_((static_cast<double>(evaluated_) + done * static_cast<double>(some.size())) /
-                          static_cast<double>(surfels_.size()));
+                          static_cast<double>(count()));
             };
         const ChannelValues values = run_.method->bake(some, order, occluders_, run_.settings, run_.wanted, progress);
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            SurfelValues& to = values_[chosen[i]];
+            float* const to = &values_[used_ * chosen[i]];
             to[0] = values[Channel::ao][i];
             if (used_ > 1)
-                std::copy_n(&values[Channel::bent_normal][3 * i], 3, &to[1]);
+                std::copy_n(&values[Channel::bent_normal][3 * i], 3, to + 1);
             states_[chosen[i]] = State::evaluated;
         }
         evaluated_ += chosen.size();
@@ -138,10 +145,12 @@ class Interpolator {
     /// Interpolates the unknown surfels around which the sources agree.
     void interpolate() {
         Sources sources;
-        for (std::uint32_t i = 0; i < surfels_.size(); ++i)
+        for (std::uint32_t i = 0; i < count(); ++i)
             if (states_[i] == State::evaluated) {
-                sources.surfels.push_back(surfels_[i]);
-                sources.values.push_back(values_[i]);
+                sources.surfels.push_back({places_[i].position, places_[i].normal});
+                SurfelValues& values = sources.values.emplace_back();
+                values.fill(0.0f);
+                std::copy_n(&values_[used_ * i], used_, values.begin());
                 sources.ranks.push_back(i);
             }
         if (sources.surfels.size() < 2)
@@ -151,11 +160,11 @@ class Interpolator {
         const SurfelCells cells(sources.surfels, static_cast<float>(sum / static_cast<double>(sources.surfels.size())));
         if (cells.is_sparse())
             return;
-        parallel_for((surfels_.size() + block - 1) / block, grain / block, [&](std::size_t begin, std::size_t end) {
+        parallel_for((count() + block - 1) / block, grain / block, [&](std::size_t begin, std::size_t end) {
             SurfelCells::Found found;
             FitSources near;
             for (std::size_t b = begin; b < end; ++b)
-                interpolate_block(b * block, std::min((b + 1) * block, surfels_.size()), sources, cells, found, near);
+                interpolate_block(b * block, std::min((b + 1) * block, count()), sources, cells, found, near);
         });
     }
 
@@ -166,8 +175,8 @@ class Interpolator {
         for (std::size_t i = begin; i < end; ++i)
             if (states_[i] == State::unknown) {
                 if (!bounds)
-                    bounds = Bounds{surfels_[i].position, surfels_[i].position};
-                bounds->add(surfels_[i].position);
+                    bounds = Bounds{places_[i].position, places_[i].position};
+                bounds->add(places_[i].position);
             }
         if (!bounds)
             return;
@@ -199,15 +208,18 @@ class Interpolator {
 
     void interpolate_at(std::size_t i, const FitSources::Arrays& near, float reach) {
         constexpr float least_weight = 0.5f; // less than one source close by
-        const LocalFit fit = local_fit(near, surfels_[i], reach, used_);
+        const LocalFit fit = local_fit(near, {places_[i].position, places_[i].normal}, reach, used_);
         if (!(fit.weight >= least_weight) || !(fit.deviation <= interpolation_.tolerance)) // also NaN
             return;
         states_[i] = State::interpolated;
-        values_[i][0] = std::clamp(fit.values[0], 0.0f, 1.0f);
+        float* const to = &values_[used_ * i];
+        to[0] = std::clamp(fit.values[0], 0.0f, 1.0f);
+        if (used_ == 1)
+            return;
         const Vec3 bent(fit.values[1], fit.values[2], fit.values[3]);
         const float length = glm::length(bent);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            values_[i][1 + axis] = values_[i][0] > 0.0f && length > 0.0f ? bent[static_cast<int>(axis)] / length : 0.0f;
+        for (int axis = 0; axis < 3; ++axis)
+            to[1 + axis] = to[0] > 0.0f && length > 0.0f ? bent[axis] / length : 0.0f;
     }
 
     const MethodRun& run_;
@@ -215,12 +227,13 @@ class Interpolator {
     const Interpolation& interpolation_;
     const PrepareSurfels& prepare_;
     const Progress& progress_;
+    std::span<const Surfel> surfels_;
     std::size_t used_;                   // values per surfel
-    std::vector<std::uint32_t> ranks_;   // index into surfels_ by rank in the order
-    std::vector<Surfel> surfels_;        // along the curve, those with equal position and normal merged
-    std::vector<std::uint32_t> indices_; // of the first of each among those given
-    HugeVector<SurfelValues> values_;
-    std::vector<State> states_;
+    HugeVector<std::uint32_t> ranks_;    // index into the next arrays, by rank in the order
+    HugeVector<Place> places_;           // along the curve, those of equal surfels merged
+    std::vector<std::uint32_t> indices_; // of the first of each among surfels_
+    HugeVector<float> values_;
+    HugeVector<State> states_;
     std::size_t evaluated_ = 0;
 };
 
@@ -243,7 +256,7 @@ std::optional<InterpolatedValues> evaluate_interpolated(std::span<const Surfel> 
             const std::ptrdiff_t first = channel.channel == Channel::ao ? 0 : 1;
             parallel_for(order.size(), grain, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i)
-                    std::copy_n(interpolator.values(i).begin() + first, channel.components,
+                    std::copy_n(interpolator.values(i) + first, channel.components,
                                 &values[order[i] * channel.components]);
             });
         }
