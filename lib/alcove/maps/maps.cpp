@@ -62,6 +62,18 @@ struct Sample {
     std::uint32_t tile, index; ///< the index of the tile, and of the sample in it
 };
 
+/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory.
+template <class Visit>
+void each_texel_in_blocks(const UvTile& tile, const Visit& visit) {
+    constexpr int side = 64;
+    for (int top = 0; top < tile.height; top += side)
+        for (int left = 0; left < tile.width; left += side)
+            for (int y = top; y < std::min(top + side, tile.height); ++y)
+                for (int x = left; x < std::min(left + side, tile.width); ++x)
+                    visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
+                          static_cast<std::size_t>(x));
+}
+
 /// Bakes the samples of all tiles in batches.
 class MapBake {
   public:
@@ -186,13 +198,14 @@ class MapBake {
         tile.wanted.assign(texels_, 0);
         tiles_.push_back(std::move(tile));
         const auto number = static_cast<std::uint32_t>(tiles_.size() - 1);
-        for (std::size_t i = 0; i < tiles_[number].owners.size(); ++i)
-            if (tiles_[number].owners.triangles[i] != no_triangle) {
-                samples_.push_back({number, static_cast<std::uint32_t>(i)});
-                tiles_[number].wanted[texel_of(i)] = 1;
-                if (samples_.size() == batch)
-                    bake_samples();
-            }
+        each_texel_in_blocks(tile_of(udim), [&](std::size_t i) {
+            if (tiles_[number].owners.triangles[i] == no_triangle)
+                return;
+            samples_.push_back({number, static_cast<std::uint32_t>(i)});
+            tiles_[number].wanted[texel_of(i)] = 1;
+            if (samples_.size() == batch)
+                bake_samples();
+        });
         // A full batch leaves nothing of the earlier tiles.
         if (samples_.empty() || samples_.front().tile == number)
             finish_tiles(number);
@@ -362,12 +375,13 @@ class MapBake {
         const std::vector<std::uint16_t>& counts = tile.counts;
         const std::vector<std::uint8_t>& wanted = tile.wanted;
         std::vector<std::uint8_t> covered(texels_);
-        std::size_t misses = 0;
+        std::size_t covered_count = 0, misses = 0;
         for (std::size_t i = 0; i < texels_; ++i) {
             covered[i] = counts[i] > 0;
-            maps_.texels += covered[i];
-            misses += wanted[i] && !covered[i];
+            covered_count += covered[i];
+            misses += wanted[i] & (counts[i] == 0);
         }
+        maps_.texels += covered_count;
         maps_.misses += misses;
         const int larger = std::max(options_.width, options_.height),
                   margin = std::min(options_.margin.value_or(std::max(larger / 128, 1)), larger);
@@ -379,10 +393,10 @@ class MapBake {
         }
         map.coverage.resize(texels_);
         for (std::size_t i = 0; i < texels_; ++i)
-            map.coverage[i] = covered[i]             ? Coverage::face
-                              : !covered[nearest[i]] ? Coverage::background
-                              : wanted[i]            ? Coverage::miss
-                                                     : Coverage::margin;
+            map.coverage[i] = covered[i]        ? Coverage::face
+                              : nearest[i] == i ? Coverage::background
+                              : wanted[i]       ? Coverage::miss
+                                                : Coverage::margin;
         for (MapLayer& layer : map.layers)
             finish(layer, map.coverage, counts, nearest);
     }
@@ -391,8 +405,9 @@ class MapBake {
                 const std::vector<std::uint32_t>& nearest) const {
         const MapAttributeInfo attribute = info(layer.attribute);
         const std::size_t components = attribute.components;
-        for (std::size_t i = 0; i < texels_; ++i)
-            if (coverage[i] == Coverage::face && layer.attribute != MapAttribute::object)
+        const bool are_sums = options_.subsamples > 1 && layer.attribute != MapAttribute::object;
+        for (std::size_t i = 0; i < texels_ && (are_sums || attribute.is_direction); ++i)
+            if (coverage[i] == Coverage::face)
                 take_mean(std::span(layer.values).subspan(components * i, components), counts[i],
                           attribute.is_direction);
         for (std::size_t i = 0; i < texels_; ++i)

@@ -87,24 +87,35 @@ std::vector<std::uint32_t> nearest_covered(std::span<const std::uint8_t> covered
     const std::vector<std::int32_t> row_of = nearest_rows(covered, columns, rows);
     parallel_for(rows, 16, [&](std::size_t begin, std::size_t end) {
         Envelope envelope(columns);
-        std::vector<std::int64_t> heights(columns);
+        std::vector<std::int64_t> heights;
         for (std::size_t y = begin; y < end; ++y) {
             const std::uint8_t* const is_covered = covered.data() + y * columns;
+            const auto height_at = [&](std::size_t x) {
+                const std::int64_t row = row_of[y * columns + x], away = row - static_cast<std::int64_t>(y);
+                return row < 0 || away * away > most ? far : away * away;
+            };
             for (std::size_t x = 0; x < columns; ++x) {
-                const std::int64_t away = std::int64_t{row_of[y * columns + x]} - static_cast<std::int64_t>(y);
-                // Texels between covered ones are nearest to themselves only.
-                const bool is_inside =
-                    is_covered[x] && x > 0 && is_covered[x - 1] && x + 1 < columns && is_covered[x + 1];
-                heights[x] = row_of[y * columns + x] < 0 || away * away > most || is_inside ? far : away * away;
-            }
-            envelope.each(heights, [&](std::size_t x, std::size_t site) {
                 if (is_covered[x])
-                    return;
-                const std::int64_t across = static_cast<std::int64_t>(x) - static_cast<std::int64_t>(site);
-                if (across * across + heights[site] <= most)
-                    nearest[y * columns + x] = static_cast<std::uint32_t>(
-                        static_cast<std::size_t>(row_of[y * columns + site]) * columns + site);
-            });
+                    continue;
+                // A run of texels without cover, and the covered ones beside it, beyond which nothing is nearer.
+                const std::size_t first = x - (x > 0);
+                heights.assign(x - first, 0);
+                bool is_near = x > first;
+                for (; x < columns && !is_covered[x]; ++x) {
+                    heights.push_back(height_at(x));
+                    is_near = is_near || heights.back() != far;
+                }
+                if (x < columns)
+                    heights.push_back(0);
+                else if (!is_near)
+                    continue;
+                envelope.each(heights, [&](std::size_t at, std::size_t site) {
+                    const std::int64_t across = static_cast<std::int64_t>(at) - static_cast<std::int64_t>(site);
+                    if (!is_covered[first + at] && across * across + heights[site] <= most)
+                        nearest[y * columns + first + at] = static_cast<std::uint32_t>(
+                            static_cast<std::size_t>(row_of[y * columns + first + site]) * columns + first + site);
+                });
+            }
         }
     });
     return nearest;

@@ -3,6 +3,7 @@
 #include "alcove/base/types.h"
 
 #include <png.h>
+#include <zlib.h>
 
 #include <array>
 #include <csetjmp>
@@ -38,7 +39,9 @@ bool encode(Encoder& encoder, png_structp png, png_infop info, int width, int he
     png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
                  color_types[static_cast<std::size_t>(channels) - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    png_set_compression_level(png, 3);
+    // Measured on maps: in a third of the time of libpng's defaults at level 3, with smaller files.
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    png_set_compression_strategy(png, Z_RLE);
     png_write_info(png, info);
     const std::size_t per_row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
     for (std::size_t begin = 0; begin < values.size(); begin += per_row) {
