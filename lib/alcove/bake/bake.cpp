@@ -208,6 +208,7 @@ struct SurfelSource {
     bool is_reconstructed; ///< the mesh is the surface of points
     std::function<std::vector<Surfel>(const PreparedMesh&)> surfels;
     IsOwnFace is_own_face;
+    std::function<std::vector<Surfel>(const PreparedMesh&, std::span<const float> ao)> more{}; ///< see BakeTarget
 };
 
 Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSource& source) {
@@ -229,6 +230,8 @@ Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSou
                          voxelizing,
                          prepared.grid ? &*prepared.grid : nullptr};
         whole.is_own_face = source.is_own_face;
+        if (source.more)
+            whole.more = [&](std::span<const float> ao) { return source.more(prepared, ao); };
         for (std::string& warning : input_warnings(whole, source.name, source.of_vertices, options))
             warnings.push_back(std::move(warning));
         const double preparing = watch.lap();
@@ -290,11 +293,21 @@ Baked bake_joined(Mesh mesh, const BakeOptions& options) {
     return baked;
 }
 
+SurfacePoints in_memory(std::span<const SurfacePoint> points) {
+    return {points.size(), [points](std::size_t i) { return points[i]; },
+            [points](std::size_t i) { return points[i].face; }};
+}
+
 Baked bake_on_surface(const Mesh& mesh, const SurfacePoints& points, const BakeOptions& options,
                       bool is_reconstructed) {
     const auto surfels = [&](const PreparedMesh& prepared) { return surfels_of_points(prepared, points); };
+    std::vector<SurfacePoint> further;
+    const auto more = [&](const PreparedMesh& prepared, std::span<const float> ao) {
+        further = points.more(ao);
+        return surfels_of_points(prepared, in_memory(further));
+    };
     const auto is_own_face = [&](std::size_t i, const Triangle& t) {
-        const std::uint32_t face_of_point = points.face(i);
+        const std::uint32_t face_of_point = i < points.count ? points.face(i) : further[i - points.count].face;
         if (face_of_point == no_face)
             return false;
         const std::span<const std::uint32_t> face = mesh.face(face_of_point);
@@ -308,7 +321,8 @@ Baked bake_on_surface(const Mesh& mesh, const SurfacePoints& points, const BakeO
                          .by_parts = false,
                          .is_reconstructed = is_reconstructed,
                          .surfels = surfels,
-                         .is_own_face = is_own_face});
+                         .is_own_face = is_own_face,
+                         .more = points.more ? more : decltype(SurfelSource::more)()});
 }
 
 /// Bakes the points of a mesh without faces on their surface.
@@ -413,10 +427,7 @@ Baked bake(const Mesh& mesh, const BakeOptions& options) {
 }
 
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options) {
-    return bake_points(mesh,
-                       {points.size(), [points](std::size_t i) { return points[i]; },
-                        [points](std::size_t i) { return points[i].face; }},
-                       options);
+    return bake_points(mesh, in_memory(points), options);
 }
 
 Baked bake_points(const Mesh& mesh, const SurfacePoints& points, const BakeOptions& options) {

@@ -53,16 +53,47 @@ struct OpenTile {
     UvTile uvs{};
     TexelOwners owners;
     MapTile map;
-    std::vector<std::uint16_t> counts; ///< samples per texel
-    std::vector<std::uint8_t> wanted;  ///< 1 for texels of a face
+    std::vector<std::uint16_t> counts{}; ///< samples per texel
+    std::vector<std::uint8_t> wanted{};  ///< 1 for texels of a face
+    bool is_thinned = false;             ///< texels between others are interpolated, see texels_around()
+    int sampled_rows = 0;                ///< whose samples have been taken, from the top
+    int interpolated_rows = 0;           ///< whose texels between others have been interpolated
 };
+
+/// The texels from which one is interpolated.
+struct TexelsAround {
+    std::array<std::size_t, 4> texels;
+    std::size_t count = 0; ///< 0 if it is not interpolated
+};
+
+/// A texel in an odd row or column is interpolated from its two or four neighbours in even ones, if they are in its
+/// chart.
+TexelsAround texels_around(const OpenTile& tile, std::size_t texel) {
+    const std::size_t width = static_cast<std::size_t>(tile.uvs.width), x = texel % width, y = texel / width;
+    const std::size_t across = x % 2, down = (y % 2) * width;
+    if ((across == 0 && down == 0) || (across > 0 && x + 1 == width) ||
+        (down > 0 && y + 1 == static_cast<std::size_t>(tile.uvs.height)))
+        return {};
+    TexelsAround around{{texel - across - down, texel + across + down, texel + across - down, texel - across + down},
+                        across > 0 && down > 0 ? 4u : 2u};
+    const auto chart = [&](std::size_t i) {
+        const std::uint32_t triangle = tile.owners.triangles[i];
+        return triangle == no_triangle ? no_triangle : tile.faces->chart(triangle);
+    };
+    const std::uint32_t own = chart(texel);
+    if (std::any_of(around.texels.begin(), around.texels.begin() + static_cast<std::ptrdiff_t>(around.count),
+                    [&](std::size_t i) { return chart(i) != own; }))
+        return {};
+    return around;
+}
 
 /// A sample of a texel.
 struct Sample {
     std::uint32_t tile, index; ///< the index of the tile, and of the sample in it
 };
 
-/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory.
+/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Passes the
+/// number of rows from the top that have been visited completely.
 template <class Visit>
 void each_texel_in_blocks(const UvTile& tile, const Visit& visit) {
     constexpr int side = 64;
@@ -71,7 +102,8 @@ void each_texel_in_blocks(const UvTile& tile, const Visit& visit) {
             for (int y = top; y < std::min(top + side, tile.height); ++y)
                 for (int x = left; x < std::min(left + side, tile.width); ++x)
                     visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
-                          static_cast<std::size_t>(x));
+                              static_cast<std::size_t>(x),
+                          top);
 }
 
 /// Bakes the samples of all tiles in batches.
@@ -108,11 +140,16 @@ class MapBake {
             if (options.cage)
                 faces.set_cage(*options.cage);
         }
+        const double error = bake.error.value_or(bake.method.empty() ? rmse_of(bake.quality) : 0.0);
+        // Rays are as noisy as a small error allows, so that neighbours differ more.
+        constexpr double least_error = 0.01;
+        if (error >= least_error && options.subsamples == 1 && !high_ && bake.attributes == Channel::ao)
+            tolerance_ = static_cast<float>(error);
     }
 
     BakedMaps run() {
-        std::vector<std::pair<const UvFaces*, int>> tiles;
-        for (const UvFaces& faces : layouts_)
+        std::vector<std::pair<UvFaces*, int>> tiles;
+        for (UvFaces& faces : layouts_)
             for (const int udim : faces.tiles(options_.udim))
                 tiles.emplace_back(&faces, udim);
         check_memory(tiles.size());
@@ -183,12 +220,17 @@ class MapBake {
     }
 
     /// Rasterizes a tile and adds its samples to the batch, which is baked when it is full.
-    void add_tile(const UvFaces& faces, int udim) {
-        OpenTile tile{&faces, tile_of(udim), {}, {}, {}, {}};
+    void add_tile(UvFaces& faces, int udim) {
+        OpenTile tile{&faces, tile_of(udim), {}, {}};
         tile.owners = rasterize(faces.uvs(), tile.uvs);
-        if (options_.udim && std::all_of(tile.owners.triangles.begin(), tile.owners.triangles.end(),
-                                         [](std::uint32_t t) { return t == no_triangle; }))
+        const std::size_t covered =
+            tile.owners.size() - static_cast<std::size_t>(std::count(tile.owners.triangles.begin(),
+                                                                     tile.owners.triangles.end(), no_triangle));
+        if (options_.udim && covered == 0)
             return;
+        // With fewer texels, the rest may be too sparse for the interpolation of surfels, which saves more.
+        constexpr std::size_t many = 1'000'000, dense = 16; // texels; texels per triangle
+        tile.is_thinned = tolerance_ > 0.0f && covered >= many && covered >= dense * faces.uvs().size();
         const auto per_side = static_cast<std::size_t>(options_.subsamples);
         maps_.overlaps += tile.owners.overlaps / (per_side * per_side);
         tile.map.udim = udim;
@@ -198,14 +240,22 @@ class MapBake {
         tile.wanted.assign(texels_, 0);
         tiles_.push_back(std::move(tile));
         const auto number = static_cast<std::uint32_t>(tiles_.size() - 1);
-        each_texel_in_blocks(tile_of(udim), [&](std::size_t i) {
-            if (tiles_[number].owners.triangles[i] == no_triangle)
+        if (tiles_[number].is_thinned)
+            faces.add_charts();
+        each_texel_in_blocks(tiles_[number].uvs, [&](std::size_t i, int complete_rows) {
+            OpenTile& open = tiles_[number];
+            if (open.owners.triangles[i] == no_triangle)
                 return;
-            samples_.push_back({number, static_cast<std::uint32_t>(i)});
-            tiles_[number].wanted[texel_of(i)] = 1;
-            if (samples_.size() == batch)
+            open.wanted[texel_of(i)] = 1;
+            if (open.is_thinned && texels_around(open, i).count > 0)
+                return;
+            if (samples_.size() == batch) {
+                open.sampled_rows = complete_rows;
                 bake_samples();
+            }
+            samples_.push_back({number, static_cast<std::uint32_t>(i)});
         });
+        tiles_[number].sampled_rows = tiles_[number].uvs.height;
         // A full batch leaves nothing of the earlier tiles.
         if (samples_.empty() || samples_.front().tile == number)
             finish_tiles(number);
@@ -237,10 +287,15 @@ class MapBake {
         std::vector<ProjectedTo> projected;
         if (projection_)
             projected = project_samples();
-        if (!samples_.empty()) {
+        const std::size_t sampled = samples_.size();
+        std::size_t between = 0; // interpolated texels
+        if (sampled > 0) {
+            SurfacePoints points = projection_ ? points_of(projected) : points_of_samples();
+            if (tolerance_ > 0.0f)
+                points.more = [&](std::span<const float> ao) { return interpolate(ao, between); };
             Baked baked;
             if (!bake_.attributes.empty())
-                baked = bake_points(surface(), projection_ ? points_of(projected) : points_of_samples(), bake_);
+                baked = bake_points(surface(), points, bake_);
             for (std::size_t a = 0; a < attributes_.size(); ++a) {
                 const MapAttribute attribute = attributes_[a];
                 std::vector<float> values = attribute < MapAttribute::normal
@@ -257,13 +312,62 @@ class MapBake {
             }
             for (const Sample& sample : samples_)
                 ++tiles_[sample.tile].counts[texel_of(sample.index)];
-            merge(std::move(baked), samples_.size());
+            merge(std::move(baked), sampled, samples_.size() - sampled, between);
         }
         samples_.clear();
     }
 
-    static void add(MapLayer& layer, std::size_t at, float value) {
-        layer.values[at] = layer.attribute == MapAttribute::object ? value : layer.values[at] + value;
+    /// Interpolates the texels between samples, given the ao of these. Appends those to the samples whose neighbours
+    /// differ. \return the points of the new samples
+    std::vector<SurfacePoint> interpolate(std::span<const float> ao, std::size_t& between) {
+        for (std::size_t i = 0; i < ao.size(); ++i)
+            tiles_[samples_[i].tile].map.layers.front().values[samples_[i].index] = ao[i];
+        const std::size_t sampled = samples_.size();
+        for (auto number = static_cast<std::uint32_t>(finished_); number < tiles_.size(); ++number)
+            if (tiles_[number].is_thinned)
+                between += interpolate(number);
+        const SurfacePoints all = points_of_samples();
+        std::vector<SurfacePoint> points;
+        for (std::size_t i = sampled; i < samples_.size(); ++i)
+            points.push_back(all.point(i));
+        return points;
+    }
+
+    /// The same for a tile, in the rows whose neighbours have values. \return the number of interpolated texels
+    std::size_t interpolate(std::uint32_t number) {
+        OpenTile& tile = tiles_[number];
+        std::vector<float>& values = tile.map.layers.front().values;
+        const int end = tile.sampled_rows == tile.uvs.height ? tile.uvs.height : std::max(tile.sampled_rows - 1, 0);
+        std::size_t count = 0;
+        for (; tile.interpolated_rows < end; ++tile.interpolated_rows)
+            for (std::size_t x = 0; x < width_; ++x) {
+                const std::size_t texel = static_cast<std::size_t>(tile.interpolated_rows) * width_ + x;
+                if (!tile.wanted[texel])
+                    continue;
+                const TexelsAround around = texels_around(tile, texel);
+                if (around.count == 0)
+                    continue;
+                float sum = 0.0f, least = 1.0f, most = 0.0f;
+                for (std::size_t k = 0; k < around.count; ++k) {
+                    const float value = values[around.texels[k]];
+                    sum += value;
+                    least = std::min(least, value);
+                    most = std::max(most, value);
+                }
+                if (most - least > tolerance_) {
+                    samples_.push_back({number, static_cast<std::uint32_t>(texel)});
+                    continue;
+                }
+                values[texel] = sum / static_cast<float>(around.count);
+                tile.counts[texel] = 1;
+                ++count;
+            }
+        return count;
+    }
+
+    void add(MapLayer& layer, std::size_t at, float value) const {
+        const bool is_sum = options_.subsamples > 1 && layer.attribute != MapAttribute::object;
+        layer.values[at] = is_sum ? layer.values[at] + value : value;
     }
 
     SurfacePoints points_of_samples() const {
@@ -347,15 +451,17 @@ class MapBake {
         }
     }
 
-    /// Keeps the description of the first batch, sums times and errors, and collects warnings.
-    void merge(Baked baked, std::size_t points) {
+    /// Keeps the description of the first batch, sums times and errors, and collects warnings. The bake planned for
+    /// `sampled` texels; `more` were evaluated after it, and others interpolated `between` them.
+    void merge(Baked baked, std::size_t sampled, std::size_t more, std::size_t between) {
+        const auto points = static_cast<double>(sampled + more + between);
         if (baked.rmse) {
-            squares_ += *baked.rmse * *baked.rmse * static_cast<double>(points);
-            error_weight_ += static_cast<double>(points);
+            squares_ += *baked.rmse * *baked.rmse * points;
+            error_weight_ += points;
         }
-        evaluated_ += baked.evaluated * static_cast<double>(points);
-        points_ += static_cast<double>(points);
-        if (points_ == static_cast<double>(points)) {
+        evaluated_ += baked.evaluated * static_cast<double>(sampled) + static_cast<double>(more);
+        points_ += points;
+        if (points_ == points) {
             maps_.baked = std::move(baked);
         } else {
             Baked& all = maps_.baked;
@@ -463,6 +569,7 @@ class MapBake {
     std::size_t finished_ = 0;   // of the tiles
     HugeVector<Sample> samples_; // of the batch
     BakedMaps maps_;
+    float tolerance_ = 0.0f; // difference of neighbours between which texels are interpolated; 0: none are
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;
 };
 

@@ -115,7 +115,9 @@ struct BakedMaps {
 /// With high meshes, each texel looks inward from MapOptions::reach in front of the mesh, and gets the first of their faces
 /// that looks outward. Texels without one get the values of their neighbours.
 ///
-/// Cost: per texel as bake() of points; texels are many, so most are interpolated. Thread-safety as bake().
+/// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of a million texels and
+/// more that are baked for ao alone, with an error of at least 0.01, texels get the mean of their neighbours where these
+/// differ by less than the error. Thread-safety as bake().
 /// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});

@@ -103,6 +103,8 @@ class TargetBake {
                 fmt::format("{} reaches only an RMSE of {:.2g} on this mesh, not {:g}: allow a larger --error{}",
                             result_.choice.label(), *result_.rmse, *task_.error,
                             task_.method ? ", or leave out --method to let the planner choose" : ""));
+        if (target_.more)
+            bake_more();
         if (task_.keep_grid)
             result_.stack = occluders_.take_stack(GridOptions{}.largest_voxel);
         result_.seconds.grid += occluders_.seconds();
@@ -458,6 +460,25 @@ class TargetBake {
         }
         evaluate_with(best.choice, settings_of(best.choice), best.largest_voxel);
         measure_error({});
+    }
+
+    void bake_more() {
+        std::vector<Surfel> more = target_.more(result_.values[Channel::ao]);
+        if (more.empty())
+            return;
+        const RaySurface& rays = occluders_.rays();
+        Stopwatch watch;
+        alcove::find_contacts(more, rays, ray_offset(target_.radius), [&](std::size_t i, const Triangle& triangle) {
+            return target_.is_own_face(target_.surfels.size() + i, triangle);
+        });
+        const Method& method = *result_.choice.method;
+        const OccluderNeeds needs = alcove::needs_of(method, task_.attributes, true);
+        const ChannelValues values = evaluate(more, spatial_order(more), occluders_.get(needs, last_voxel_), method,
+                                              settings_of(result_.choice), task_.attributes);
+        for (const ChannelInfo& channel : channels)
+            result_.values[channel.channel].insert(result_.values[channel.channel].end(),
+                                                   values[channel.channel].begin(), values[channel.channel].end());
+        result_.seconds.occlusion += watch.lap();
     }
 
     void warn_of_errors() {

@@ -36,6 +36,9 @@ struct BakeTarget {
     PilotOptions pilot_share{}; ///< only `surfels` is used: the maximum for the pilot of this target
     double share = 1.0;         ///< of the surfels of the whole bake
     IsOwnFace is_own_face = uses_vertex;
+    /// If set, called with the ao of all surfels: returns further ones, whose values follow. They count as the next for
+    /// is_own_face.
+    std::function<std::vector<Surfel>(std::span<const float> ao)> more{};
 };
 
 struct TargetResult {

@@ -89,6 +89,11 @@ SurfacePoint UvFaces::point(std::uint32_t triangle, const Vec3d& weights) const 
     return point;
 }
 
+void UvFaces::add_charts() {
+    if (charts_.empty())
+        charts_ = charts_of(vertices_, uvs_, normals_);
+}
+
 void UvFaces::add_directions() {
     vertex_normals_ = angle_weighted_normals(mesh_, triangulate(mesh_).triangles);
 }

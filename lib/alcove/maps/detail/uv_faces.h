@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/bake/bake.h"
+#include "alcove/maps/detail/charts.h"
 #include "alcove/maps/detail/projection.h"
 #include "alcove/maps/detail/rasterize.h"
 #include "alcove/maps/detail/tangent_frames.h"
@@ -36,6 +37,9 @@ class UvFaces {
     std::uint32_t face(std::uint32_t triangle) const { return faces_[triangle]; }
     /// Its normal is not of unit length.
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
+    /// Computes what chart() needs.
+    void add_charts();
+    std::uint32_t chart(std::uint32_t triangle) const { return charts_[triangle]; }
     /// Computes what projected_from() needs.
     void add_directions();
     /// The point, to be looked at from `front` before it along the mean of the normals around its vertices, which has no
@@ -59,6 +63,7 @@ class UvFaces {
     std::vector<Triangle> vertices_;
     std::vector<std::array<Vec3, 3>> normals_;
     std::vector<TangentTriangle> tangents_;
+    std::vector<std::uint32_t> charts_;
     std::vector<Vec3> vertex_normals_;
     const Mesh* cage_ = nullptr;
     std::size_t without_texels_ = 0;

@@ -1,0 +1,19 @@
+/// Charts: parts of a surface that are continuous in UV space and smooth.
+#pragma once
+
+#include "alcove/base/types.h"
+#include "alcove/maps/detail/rasterize.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace alcove {
+
+/// The number of the chart of each triangle. Triangles are in one chart if they share an edge, with the same UVs and
+/// nearly the same normals at its ends. Cost: about 0.2 µs per triangle.
+std::vector<std::uint32_t> charts_of(std::span<const Triangle> vertices, std::span<const UvTriangle> uvs,
+                                     std::span<const std::array<Vec3, 3>> normals);
+
+}
