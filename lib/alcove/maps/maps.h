@@ -69,8 +69,8 @@ struct MapOptions {
     /// Meshes whose surface is baked instead: each texel is projected onto it along the mean normal of the mesh. The
     /// mesh itself then occludes nothing, and lengths relative to a diagonal refer to these meshes.
     std::vector<Mesh> high{};
-    /// How far to look for the high meshes, in front and behind; in percent, of their diagonal. Empty: from the distance
-    /// of the meshes.
+    /// How far to look for the high meshes, in front and behind; in percent, of their diagonal. Empty: from the
+    /// distance of the meshes.
     std::optional<Length> reach{};
     /// The vertices of the mesh, moved outward: texels then look from here, in the direction of the mesh.
     std::optional<Mesh> cage{};
@@ -112,8 +112,8 @@ struct BakedMaps {
 /// first that touches it. Normals are those of corners or vertices in the file, interpolated; without them, means over
 /// faces within 40 degrees, so that edges are hard. NormalSource::angle and area smooth everything.
 ///
-/// With high meshes, each texel looks inward from MapOptions::reach in front of the mesh, and gets the first of their faces
-/// that looks outward. Texels without one get the values of their neighbours.
+/// With high meshes, each texel looks inward from MapOptions::reach in front of the mesh, and gets the first of their
+/// faces that looks outward. Texels without one get the values of their neighbours.
 ///
 /// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of a million texels and
 /// more that are baked for ao alone, with an error of at least 0.01, texels get the mean of their neighbours where these
@@ -134,9 +134,10 @@ struct OcclusionTextures {
     BakedMaps maps;
 };
 
-/// Bakes a texture per material, on its first set of UVs without overlaps. If a glTF mesh has several instances, all show
-/// the ao of the first one; Baked::warnings says so. The attributes and MapOptions::uv_set, udim, high and surface have
-/// no effect. \throw as bake_maps(), and InputError that names the meshes for which no set of UVs is without overlaps.
+/// Bakes a texture per material, on its first set of UVs without overlaps. If a glTF mesh has several instances, all
+/// show the ao of the first one; Baked::warnings says so. The attributes and MapOptions::uv_set, udim, high and surface
+/// have no effect. \throw as bake_maps(), and InputError that names the meshes for which no set of UVs is without
+/// overlaps.
 OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake = {},
                                           const MapOptions& options = {});
 
@@ -163,10 +164,11 @@ struct MapFileOptions {
 void check(const MapOptions& options);
 void check(const MapFileOptions& options, const std::filesystem::path& file);
 
-/// Writes a .png per attribute, or one .exr with a layer per attribute. The first attribute, ao if there is any, goes to
-/// `file`, the others go to `name_<attribute>.png`. `<UDIM>` in the name becomes the number of the tile. PNGs hold ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5
-/// h/reach, positions as shares of BakedMaps::box, object numbers as they are, and directions as 0.5 + 0.5 v, all without
-/// an sRGB tag. Each file is written completely or not at all.
+/// Writes a .png per attribute, or one .exr with a layer per attribute. The first attribute, ao if there is any, goes
+/// to `file`, the others go to `name_<attribute>.png`. `<UDIM>` in the name becomes the number of the tile. PNGs hold
+/// ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5 h/reach, positions as
+/// shares of BakedMaps::box, object numbers as they are, and directions as 0.5 + 0.5 v, all without an sRGB tag. Each
+/// file is written completely or not at all.
 /// \return the files. \throw as check(); IoError if a file cannot be written.
 std::vector<std::filesystem::path> write_maps(const BakedMaps& maps, const std::filesystem::path& file,
                                               const MapFileOptions& options = {});

@@ -66,8 +66,8 @@ class MaterialFaces {
     std::set<std::size_t> others_;
 };
 
-/// Whether every face of a layout has texels of its own: rasterized, at most a thousandth of the texels overlap, and all
-/// UVs lie in the texture.
+/// Whether every face of a layout has texels of its own: rasterized, at most a thousandth of the texels overlap, and
+/// all UVs lie in the texture.
 bool is_unwrapped(const Mesh& mesh, const UvLayout& layout, const MapOptions& options) {
     constexpr float rounding = 1e-3f;
     const UvFaces faces(mesh, {NormalSource::automatic, layout.uv_set, layout.wanted});

@@ -27,8 +27,8 @@ class GltfOutput {
     std::size_t add_positions(std::span<const float> values); ///< with their bounds
     std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
     std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
-    /// Replaces the values of an accessor if it alone has these bytes in the binary chunk, so that files do not grow with
-    /// each bake. \return whether it did.
+    /// Replaces the values of an accessor if it alone has these bytes in the binary chunk, so that files do not grow
+    /// with each bake. \return whether it did.
     bool overwrite(std::size_t accessor, int component_type, std::string_view bytes);
     /// Appends a PNG, and returns the index in `images`.
     std::size_t add_png(std::string_view bytes, const std::string& name);
@@ -37,7 +37,7 @@ class GltfOutput {
     void write();
 
     /// The paths of images that were rewritten relative to the folder of the target, or not found.
-    std::vector<std::string> warnings() const { return warnings_; }
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
     std::size_t add_view(std::string_view bytes, int target);

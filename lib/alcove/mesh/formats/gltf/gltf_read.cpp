@@ -5,7 +5,6 @@
 #include "alcove/mesh/formats/gltf/gltf_accessor.h"
 #include "alcove/mesh/formats/gltf/gltf_compression.h"
 #include "alcove/mesh/formats/gltf/gltf_document.h"
-#include "alcove/mesh/formats/text_encoding.h"
 #include "alcove/mesh/normals.h"
 
 #include <fmt/format.h>
@@ -24,6 +23,8 @@ namespace alcove {
 namespace {
 
 enum Mode : std::size_t { triangles = 4, triangle_strip, triangle_fan };
+
+constexpr Color white{255, 255, 255, 255};
 
 constexpr std::array<std::string_view, 4> geometry_extensions{"KHR_mesh_quantization", "EXT_meshopt_compression",
                                                               "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing"};
@@ -334,7 +335,6 @@ class GltfReader {
         } else if (!mesh_.vertex_uvs.empty()) {
             mesh_.vertex_uvs.resize(first + count, Vec2(0.0f));
         }
-        constexpr Color white{255, 255, 255, 255};
         if (!vertices.colors.empty()) {
             mesh_.vertex_colors.resize(first, white);
             const auto step = static_cast<std::size_t>(vertices.color_components);
@@ -366,7 +366,7 @@ class GltfReader {
         for (std::size_t f = first_face + 1; f < mesh_.face_begin.size(); ++f)
             mesh_.face_begin[f] = static_cast<std::uint32_t>(first_corner + 3 * (f - first_face));
         FaceGroup group{placement.names, static_cast<std::uint32_t>(first_face)};
-        Color color{255, 255, 255, 255};
+        Color color = white;
         std::optional<std::size_t> material_number;
         if (primitive.has("material")) {
             const GltfValue material = primitive["material"].target(root_, "materials");
@@ -378,7 +378,6 @@ class GltfReader {
         }
         mesh_.groups.push_back(std::move(group));
         document_->group_primitives.push_back({placement_number, primitive_number, material_number});
-        constexpr Color white{255, 255, 255, 255};
         if (color != white || !mesh_.face_colors.empty()) {
             mesh_.face_colors.resize(first_face, white);
             mesh_.face_colors.resize(mesh_.face_count(), color);
@@ -389,7 +388,7 @@ class GltfReader {
         const std::optional<GltfValue> pbr = material.find("pbrMetallicRoughness");
         const std::optional<GltfValue> factor = pbr ? pbr->find("baseColorFactor") : std::nullopt;
         if (!factor || factor->size() != 4)
-            return {255, 255, 255, 255};
+            return white;
         const auto at = [&](std::size_t i) { return static_cast<float>((*factor)[i].number()); };
         return srgb_color({at(0), at(1), at(2)}, at(3));
     }
@@ -468,47 +467,6 @@ std::vector<Vec2> uvs_of_primitive(GltfFile& file, const GltfValue& primitive, s
         value->fail(fmt::format("{} has {} elements, but POSITION has {}; export the file again", name,
                                 grouped(accessor.count()), grouped(count)));
     return as_uvs(accessor.floats());
-}
-
-bool GltfDocument::has_vertex_property(std::string_view name) const {
-    if (name != "red" && name != "green" && name != "blue")
-        return false;
-    const GltfValue root = file->root();
-    return std::any_of(vertices.begin(), vertices.end(), [&](const GltfVertices& block) {
-        const GltfValue mesh = root["meshes"][placements[block.placement].mesh];
-        return mesh["primitives"][block.primitives.front()]["attributes"].has("COLOR_0");
-    });
-}
-
-std::string_view GltfDocument::comment(std::string_view beginning) const {
-    const std::optional<GltfValue> extras = file->root()["asset"].find("extras");
-    const std::optional<GltfValue> comments = extras ? extras->find("comments") : std::nullopt;
-    for (std::size_t i = 0; comments && comments->json().is_array() && i < comments->size(); ++i)
-        if (const GltfValue line = (*comments)[i]; line.json().is_string() && line.text().starts_with(beginning))
-            return line.text();
-    return {};
-}
-
-std::vector<Vec2> GltfDocument::uv_set(std::size_t number) const {
-    std::vector<Vec2> uvs(vertex_count(), Vec2(0.0f));
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<Vec2>> known; // by mesh and primitive
-    for (const GltfVertices& block : vertices) {
-        const std::size_t mesh = placements[block.placement].mesh, primitive = block.primitives.front();
-        const auto [found, is_new] = known.try_emplace({mesh, primitive});
-        if (is_new)
-            found->second = uvs_of_primitive(*file, file->root()["meshes"][mesh]["primitives"][primitive], number);
-        const std::vector<Vec2>& own = found->second;
-        std::copy(own.begin(), own.end(), uvs.begin() + static_cast<std::ptrdiff_t>(block.first));
-    }
-    return uvs;
-}
-
-bool begins_as_gltf(const FileBytes& file) {
-    if (file.view().starts_with("glTF"))
-        return true;
-    const std::string_view text = without_byte_order_mark(file.view());
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    return first != std::string_view::npos && text[first] == '{';
 }
 
 Mesh read_gltf(const FileBytes& file) {

@@ -16,7 +16,8 @@ std::string gltf_attribute_name(std::string_view name);
 /// Linear colours of 16 bits.
 std::vector<std::array<std::uint16_t, 4>> linear_colors(std::span<const Color> colors, ColorEncoding encoding);
 
-/// Whether the added colours are the attribute `ao`, so that COLOR_0 can be computed from that without rounding to bytes.
+/// Whether the added colours are the attribute `ao`, so that COLOR_0 can be computed from that without rounding to
+/// bytes.
 bool colors_are_ao(const Mesh& mesh);
 /// One grey per value.
 std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> values);

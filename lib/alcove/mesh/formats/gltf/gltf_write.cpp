@@ -284,8 +284,8 @@ std::size_t count_uses(const GltfValue& root, const std::optional<std::size_t>& 
     return uses;
 }
 
-/// Gives the primitives of a texture its material, or a copy of it if others have it too. \return whether it had another
-/// occlusion texture.
+/// Gives the primitives of a texture its material, or a copy of it if others have it too. \return whether it had
+/// another occlusion texture.
 bool add_texture(GltfOutput& output, const GltfValue& root, const GltfTexture& texture) {
     Json& json = output.json();
     const std::size_t number = add_image(output, texture);
@@ -325,8 +325,7 @@ std::vector<std::string> write_checked(const Mesh& mesh, const std::filesystem::
                 messages.push_back("the occlusion texture of the input is replaced");
         add_comments(output.json(), mesh);
         output.write();
-        for (std::string& warning : output.warnings())
-            messages.push_back(std::move(warning));
+        messages.insert(messages.end(), output.warnings().begin(), output.warnings().end());
         return messages;
     }
     if (mesh.source != nullptr)
