@@ -2,10 +2,10 @@
 #include "alcove/maps/maps.h"
 #include "alcove/render/image.h"
 
+#include "png_values.h"
 #include "scratch_folder.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <algorithm>
 
@@ -27,34 +27,6 @@ BakedMaps small_maps() {
     return maps;
 }
 
-struct Png {
-    png_uint_32 width = 0, height = 0;
-    int depth = 0, color_type = 0;
-    bool has_srgb = false, has_gamma = false;
-    std::vector<int> values;
-};
-
-Png read_png(const std::filesystem::path& file) {
-    Png result;
-    std::FILE* stream = std::fopen(file.c_str(), "rb");
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop info = png_create_info_struct(png);
-    png_init_io(png, stream);
-    png_read_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
-    png_get_IHDR(png, info, &result.width, &result.height, &result.depth, &result.color_type, nullptr, nullptr,
-                 nullptr);
-    result.has_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
-    result.has_gamma = png_get_valid(png, info, PNG_INFO_gAMA) != 0;
-    png_bytepp rows = png_get_rows(png, info);
-    const auto bytes = static_cast<std::size_t>(result.depth / 8);
-    for (png_uint_32 y = 0; y < result.height; ++y)
-        for (std::size_t i = 0; i < png_get_rowbytes(png, info); i += bytes)
-            result.values.push_back(bytes == 1 ? rows[y][i] : 256 * rows[y][i] + rows[y][i + 1]);
-    png_destroy_read_struct(&png, &info, nullptr);
-    std::fclose(stream);
-    return result;
-}
-
 TEST(MapFiles, PngsHoldLinearValuesWithoutAColourSpace) {
     const ScratchFolder folder;
     const auto files = write_maps(small_maps(), folder / "map.png");
@@ -71,6 +43,18 @@ TEST(MapFiles, PngsHoldLinearValuesWithoutAColourSpace) {
     EXPECT_EQ(bent.color_type, PNG_COLOR_TYPE_RGB);
     EXPECT_EQ(std::vector<int>(bent.values.begin(), bent.values.begin() + 3), (std::vector<int>{128, 128, 255}));
     EXPECT_EQ(thickness.values, (std::vector<int>{0, 64, 128, 191, 255, 0}));
+}
+
+TEST(MapFiles, PngsSayHowTheyWereMade) {
+    const ScratchFolder folder;
+    BakedMaps maps = small_maps();
+    maps.baked.method = "traced";
+    maps.baked.radius = 0.25;
+    for (const auto& file : write_maps(maps, folder / "map.png")) {
+        const Png png = read_png(file);
+        EXPECT_TRUE(png.texts.at("Software").starts_with("alcove "));
+        EXPECT_EQ(png.texts.at("Comment"), "ambient occlusion by traced, radius 0.25");
+    }
 }
 
 TEST(MapFiles, TheFirstAttributeHasTheGivenName) {

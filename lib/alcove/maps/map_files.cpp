@@ -1,6 +1,7 @@
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/file_kind.h"
 #include "alcove/base/types.h"
+#include "alcove/maps/detail/map_provenance.h"
 #include "alcove/maps/maps.h"
 #include "alcove/render/detail/exr_file.h"
 #include "alcove/render/detail/png_file.h"
@@ -86,7 +87,8 @@ std::string encoded(const BakedMaps& maps, const MapLayer& layer, int bits) {
     std::vector<std::uint16_t> values(layer.values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = png(i);
-    return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.attribute).components), bits, values);
+    return encode_png_file(maps.width, maps.height, static_cast<int>(info(layer.attribute).components), bits, values,
+                           png_texts(maps));
 }
 
 std::string packed(const BakedMaps& maps, const MapTile& tile, std::span<const PackedChannel> pack, int bits) {
@@ -109,7 +111,7 @@ std::string packed(const BakedMaps& maps, const MapTile& tile, std::span<const P
         for (std::size_t i = 0; i < texels; ++i)
             values[channels * i + c] = png(i);
     }
-    return encode_png_file(maps.width, maps.height, static_cast<int>(channels), bits, values);
+    return encode_png_file(maps.width, maps.height, static_cast<int>(channels), bits, values, png_texts(maps));
 }
 
 void write_file(const fs::path& file, const std::string& bytes) {
@@ -160,9 +162,8 @@ void write_exr(const BakedMaps& maps, const MapTile& tile, const fs::path& file,
         add(layer_name(layer.attribute) + ".", components == 3 ? "XYZ" : "RGB");
     }
     ImageHeader header;
-    header.software = "alcove " ALCOVE_VERSION;
-    if (!maps.baked.method.empty())
-        header.comments = fmt::format("ambient occlusion by {}, radius {:.6g}", maps.baked.method, maps.baked.radius);
+    header.software = map_software();
+    header.comments = how_made(maps);
     write_exr_file(maps.width, maps.height, channels, header, false, file);
 }
 
@@ -215,7 +216,7 @@ std::vector<fs::path> write_miss_mask(const BakedMaps& maps, const fs::path& fil
             return static_cast<std::uint16_t>(coverage == Coverage::miss ? 255 : 0);
         });
         written.push_back(of_tile(file, tile.udim));
-        write_file(written.back(), encode_png_file(maps.width, maps.height, 1, 8, values));
+        write_file(written.back(), encode_png_file(maps.width, maps.height, 1, 8, values, png_texts(maps)));
     }
     return written;
 }

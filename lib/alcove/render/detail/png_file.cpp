@@ -15,6 +15,7 @@ namespace {
 struct Encoder {
     std::string bytes, failure;
     std::vector<png_byte> row;
+    std::vector<png_text> texts;
 };
 
 void take_bytes(png_structp png, png_bytep data, png_size_t length) {
@@ -42,6 +43,7 @@ bool encode(Encoder& encoder, png_structp png, png_infop info, int width, int he
     // Measured on maps: in a third of the time of libpng's defaults at level 3, with smaller files.
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_strategy(png, Z_RLE);
+    png_set_text(png, info, encoder.texts.data(), static_cast<int>(encoder.texts.size()));
     png_write_info(png, info);
     const std::size_t per_row = static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
     for (std::size_t begin = 0; begin < values.size(); begin += per_row) {
@@ -60,9 +62,17 @@ bool encode(Encoder& encoder, png_structp png, png_infop info, int width, int he
 
 }
 
-std::string encode_png_file(int width, int height, int channels, int bits, std::span<const std::uint16_t> values) {
+std::string encode_png_file(int width, int height, int channels, int bits, std::span<const std::uint16_t> values,
+                            std::span<const PngText> texts) {
     Encoder encoder;
     encoder.row.resize(2 * static_cast<std::size_t>(width) * static_cast<std::size_t>(channels));
+    for (const PngText& text : texts) {
+        png_text& added = encoder.texts.emplace_back();
+        added.compression = PNG_TEXT_COMPRESSION_NONE;
+        added.key = const_cast<char*>(text.keyword); // read only
+        added.text = const_cast<char*>(text.text.c_str());
+        added.text_length = text.text.size();
+    }
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, take_failure, ignore);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     const bool done = info && encode(encoder, png, info, width, height, channels, bits, values);

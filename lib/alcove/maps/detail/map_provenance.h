@@ -1,0 +1,19 @@
+/// How maps were made, as their files say.
+#pragma once
+
+#include "alcove/maps/maps.h"
+#include "alcove/render/detail/png_file.h"
+
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+/// "alcove 0.2.0".
+std::string map_software();
+/// "ambient occlusion by traced, radius 0.5"; empty if no method made the maps.
+std::string how_made(const BakedMaps& maps);
+/// Both, for a PNG.
+std::vector<PngText> png_texts(const BakedMaps& maps);
+
+}
