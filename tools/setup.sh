@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 packages=(
     g++ cmake ninja-build clang-format clang-tidy ccache shellcheck python3
     libopenvdb-dev libboost-dev libboost-iostreams-dev libopenmesh-dev libtbb-dev libhwy-dev libglm-dev
-    libnanovdb-dev libopenexr-dev libpng-dev zlib1g-dev libfast-float-dev libfmt-dev libcli11-dev nlohmann-json3-dev libembree-dev libmeshoptimizer-dev libdraco-dev
+    libnanovdb-dev libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libfast-float-dev libfmt-dev libcli11-dev nlohmann-json3-dev libembree-dev libmeshoptimizer-dev libdraco-dev
     libeigen3-dev libnanoflann-dev libtomlplusplus-dev libgtest-dev libbenchmark-dev pybind11-dev python3-dev python3-numpy
     "$@"
 )

@@ -58,7 +58,7 @@ class BakeJob {
         BakedMaps map;
         Baked at_vertices;
         if (into_texture)
-            textures = bake_occlusion_textures(mesh_, options, verb_.map.map);
+            textures = bake_occlusion_textures(mesh_, options, verb_.map.map, verb_.map.packing());
         else if (into_map)
             map = bake_maps(mesh_, options, map_options());
         else

@@ -92,6 +92,8 @@ void check_options(const BakeVerb& verb) {
 }
 
 void check_output(const BakeVerb& verb, const std::string& output) {
+    if (verb.map.pack_orm && !verb.map.into_texture)
+        throw UsageError("--pack-orm packs occlusion textures: give --into texture, too");
     if (verb.map.into_texture)
         return check_texture_usage(verb, output);
     if (is_map(output))

@@ -82,6 +82,12 @@ bool MapRequest::given_beyond_size() const {
            map.flip_green || !files.pack.empty();
 }
 
+TexturePacking MapRequest::packing() const {
+    if (!pack_orm)
+        return TexturePacking::none;
+    return has_size ? TexturePacking::size_of_map : TexturePacking::size_of_image;
+}
+
 bool is_map(const std::string& output) {
     return extension(output) == ".png" || extension(output) == ".exr";
 }
@@ -92,11 +98,15 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
                      "material, on a set of UVs without overlaps")
         ->type_name("WHERE")
         ->default_str("vertices");
+    verb.add_flag(
+        "--pack-orm", request.pack_orm,
+        "With --into texture: store ao in the red channel of the metallic-roughness texture of each material, "
+        "at its size unless --size is given");
     verb.add_option_function<std::string>(
             "--size",
             [&request](const std::string& text) {
                 std::tie(request.map.width, request.map.height) = parse_size(text);
-                request.sized = true;
+                request.has_size = request.sized = true;
             },
             "Texels of a map along each side: N, or WxH")
         ->check(parsable(parse_size))

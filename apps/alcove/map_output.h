@@ -13,16 +13,19 @@ struct MapRequest {
     std::vector<std::string> high{};
     std::string cage{}, miss_mask{};
     bool into_texture = false; ///< occlusion textures in a glTF file, not a map
+    bool pack_orm = false;     ///< into the metallic-roughness textures of that file
+    bool has_size = false;     ///< whether --size was used
     bool sized = false;        ///< whether --size, --subsamples or --margin was used
 
     bool given() const;             ///< whether any option for maps was used
     bool given_beyond_size() const; ///< besides --size, --subsamples and --margin
+    TexturePacking packing() const;
 };
 
 /// Whether the name of an output ends in .png or .exr.
 bool is_map(const std::string& output);
 
-/// Adds --into, --size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage,
+/// Adds --into, --pack-orm, --size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage,
 /// --miss-mask and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 

@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include "alcove/mesh/files.h"
+#include "alcove/render/detail/png_file.h"
 
 #include <cmath>
 
@@ -72,6 +73,34 @@ TEST_F(BakeGltf, WritesOcclusionTextures) {
     write_room();
     expect_refusal({"bake", "room.glb", "-o", "out.glb", "--into", "texture"}, bad_input,
                    {"no set of UVs without overlaps", "--into vertices"});
+}
+
+TEST_F(BakeGltf, PacksOcclusionIntoMetallicRoughnessTextures) {
+    GltfBuilder builder;
+    const std::string png = encode_png_file(16, 8, 3, 8, std::vector<std::uint16_t>(384, 7));
+    builder.json["images"] = {
+        {{"name", "metal"}, {"bufferView", builder.add_view(std::vector(png.begin(), png.end()))}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    builder.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}}};
+    auto square = builder.square();
+    square["attributes"]["TEXCOORD_0"] = builder.add(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, 2);
+    square["material"] = 0;
+    builder.show({builder.add_node({{"mesh", builder.add_mesh({square}, "sheet")}})});
+    write("sheet.glb", builder.glb());
+    const Outcome outcome = run({"bake", "sheet.glb", "-o", "out.glb", "--into", "texture", "--pack-orm", "--json"});
+    ASSERT_EQ(outcome.code, done) << outcome.err;
+    EXPECT_EQ(outcome.json().at("size"), (nlohmann::json{16, 8}));
+    const auto json = json_of("out.glb");
+    EXPECT_EQ(json["materials"][0]["occlusionTexture"]["index"], 0);
+    EXPECT_EQ(json["images"].size(), 1u);
+    EXPECT_EQ(json["images"][0]["name"], "metal");
+    expect_refusal({"bake", "sheet.glb", "-o", "out.glb", "--pack-orm"}, usage, {"--pack-orm", "--into texture"});
+    expect_refusal({"bake", "sheet.glb", "-o", "map.png", "--pack-orm"}, usage, {"--pack-orm", "--into texture"});
+    builder.json["images"][0]["bufferView"] = 1; // positions
+    write("sheet.glb", builder.glb());
+    expect_refusal({"bake", "sheet.glb", "-o", "out.glb", "--into", "texture", "--pack-orm"}, bad_input,
+                   {"sheet.glb: images[0]", "neither a PNG nor a JPEG"});
+    EXPECT_EQ(run({"bake", "sheet.glb", "-o", "out.glb", "--into", "texture", "--size", "16"}).code, done);
 }
 
 TEST_F(BakeGltf, PointsKeepTheirOrderAndProperties) {

@@ -22,7 +22,7 @@ namespace {
 constexpr double bytes_per_point = 260.0; // measured: a bake of points
 constexpr double bytes_per_sample = 7.0;  // rasterizing
 constexpr double bytes_per_texel = 10.0;  // coverage, padding, counts
-constexpr int largest_side = 16384, most_subsamples = 8;
+constexpr int most_subsamples = 8;
 
 /// The faces of several meshes as one mesh, with normals if all of them have some.
 Mesh united(std::span<const Mesh> meshes) {
@@ -577,9 +577,9 @@ class MapBake {
 
 void check(const MapOptions& options) {
     const auto within = [](int value, int most) { return value >= 1 && value <= most; };
-    if (!within(options.width, largest_side) || !within(options.height, largest_side))
+    if (!within(options.width, largest_map) || !within(options.height, largest_map))
         throw InputError(
-            fmt::format("--size takes 1 to {} texels, not {} x {}", largest_side, options.width, options.height));
+            fmt::format("--size takes 1 to {} texels, not {} x {}", largest_map, options.width, options.height));
     if (!within(options.subsamples, most_subsamples) ||
         options.subsamples * std::max(options.width, options.height) > most_texels)
         throw InputError(fmt::format("--subsamples takes 1 to {}, and at most {} along a side of the map",

@@ -122,6 +122,13 @@ struct BakedMaps {
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});
 
+/// What an occlusion texture holds besides ao.
+enum class TexturePacking {
+    none,          ///< nothing
+    size_of_image, ///< the metallic-roughness texture of the material, at the size of its image; ao is the red channel
+    size_of_map,   ///< the same, at the size in MapOptions
+};
+
 /// Textures of ao for the materials of a glTF scene, or one for a mesh from another format.
 struct OcclusionTextures {
     struct Texture {
@@ -129,6 +136,8 @@ struct OcclusionTextures {
         std::vector<std::pair<std::size_t, std::size_t>>
             primitives; ///< that show it: meshes of the file, primitives in them
         int uv_set = 0;
+        int width = 0, height = 0; ///< texels
+        bool is_packed = false;    ///< into the red channel of the metallic-roughness texture
     };
     std::vector<Texture> textures; ///< one per tile of `maps`
     BakedMaps maps;
@@ -136,10 +145,16 @@ struct OcclusionTextures {
 
 /// Bakes a texture per material, on its first set of UVs without overlaps. If a glTF mesh has several instances, all
 /// show the ao of the first one; Baked::warnings says so. The attributes and MapOptions::uv_set, udim, high and surface
-/// have no effect. \throw as bake_maps(), and InputError that names the meshes for which no set of UVs is without
-/// overlaps.
+/// have no effect.
+///
+/// With packing, the UVs are those of the metallic-roughness texture if they are without overlaps. Otherwise, and where
+/// there is no such texture, the material gets a texture of its own; Baked::warnings says so.
+/// TexturePacking::size_of_image bakes at the size of the largest of these images.
+/// \throw as bake_maps(), InputError that names the meshes for which no set of UVs is without overlaps, or an image that
+/// is damaged, missing, or neither PNG nor JPEG, and LimitError if an image does not fit in memory.
 OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake = {},
-                                          const MapOptions& options = {});
+                                          const MapOptions& options = {},
+                                          TexturePacking packing = TexturePacking::none);
 
 /// Writes a glTF file with the textures added as the occlusionTexture of the materials. \return messages, as
 /// write_mesh(). \throw as write_mesh(); InputError for another extension than .glb and .gltf.

@@ -9,6 +9,9 @@
 
 namespace alcove {
 
+/// Texels along a side of a map.
+inline constexpr int largest_map = 16384;
+
 /// Faces that share a texture.
 struct UvLayout {
     int uv_set = 0;

@@ -128,6 +128,40 @@ bool GltfFile::is_indented() const {
            (json_text_[brace + 1] == '\n' || json_text_[brace + 1] == '\r');
 }
 
+std::string_view GltfFile::bytes_of_uri(const GltfValue& holder) {
+    const std::string& uri = holder["uri"].text();
+    const std::string key = is_data_uri(uri) ? holder.place() : uri;
+    auto known = files_.find(key);
+    if (known == files_.end()) {
+        if (is_data_uri(uri)) {
+            const std::optional<std::string> data = data_of_uri(uri);
+            if (!data)
+                holder["uri"].fail("is not a data URI in base64; export the file again");
+            known = files_.try_emplace(key, bytes_.path(), *data).first;
+        } else {
+            const std::optional<std::filesystem::path> path = path_of_uri(uri);
+            if (!path)
+                holder["uri"].fail(fmt::format("{} is not a file in the folder of this one, and no other file is "
+                                               "read; put it beside this one",
+                                               in_quotes(uri)));
+            const std::filesystem::path file = bytes_.path().parent_path() / *path;
+            std::error_code error;
+            if (!std::filesystem::is_regular_file(file, error))
+                holder["uri"].fail(fmt::format("the file {} is missing; put it beside this one", in_quotes(uri)));
+            // A link may lead out of the folder, too.
+            const auto folder = bytes_.path().has_parent_path() ? bytes_.path().parent_path() : ".";
+            const auto inside = std::filesystem::weakly_canonical(file, error)
+                                    .lexically_relative(std::filesystem::weakly_canonical(folder, error));
+            if (inside.empty() || *inside.begin() == "..")
+                holder["uri"].fail(fmt::format("{} leads out of the folder of this file, and no other file is read; "
+                                               "put the data beside this one",
+                                               in_quotes(uri)));
+            known = files_.try_emplace(key, file).first;
+        }
+    }
+    return known->second.view();
+}
+
 std::string_view GltfFile::buffer(const GltfValue& buffer) {
     const std::lock_guard lock(mutex_);
     const std::size_t length = buffer["byteLength"].count();
@@ -137,43 +171,17 @@ std::string_view GltfFile::buffer(const GltfValue& buffer) {
             buffer.fail("has no data; export the file again");
         bytes = binary_chunk_;
     } else {
-        const std::string& uri = buffer["uri"].text();
-        const std::string key = is_data_uri(uri) ? buffer.place() : uri;
-        auto known = buffers_.find(key);
-        if (known == buffers_.end()) {
-            if (is_data_uri(uri)) {
-                const std::optional<std::string> data = data_of_uri(uri);
-                if (!data)
-                    buffer["uri"].fail("is not a data URI in base64; export the file again");
-                known = buffers_.try_emplace(key, bytes_.path(), *data).first;
-            } else {
-                const std::optional<std::filesystem::path> path = path_of_uri(uri);
-                if (!path)
-                    buffer["uri"].fail(fmt::format("{} is not a file in the folder of this one, and no other file is "
-                                                   "read; put it beside this one",
-                                                   in_quotes(uri)));
-                const std::filesystem::path file = bytes_.path().parent_path() / *path;
-                std::error_code error;
-                if (!std::filesystem::is_regular_file(file, error))
-                    buffer["uri"].fail(fmt::format("the file {} is missing; put it beside this one", in_quotes(uri)));
-                // A link may lead out of the folder, too.
-                const auto folder = bytes_.path().has_parent_path() ? bytes_.path().parent_path() : ".";
-                const auto inside = std::filesystem::weakly_canonical(file, error)
-                                        .lexically_relative(std::filesystem::weakly_canonical(folder, error));
-                if (inside.empty() || *inside.begin() == "..")
-                    buffer["uri"].fail(
-                        fmt::format("{} leads out of the folder of this file, and no other file is read; "
-                                    "put the data beside this one",
-                                    in_quotes(uri)));
-                known = buffers_.try_emplace(key, file).first;
-            }
-        }
-        bytes = known->second.view();
+        bytes = bytes_of_uri(buffer);
     }
     if (bytes.size() < length)
         buffer.fail(fmt::format("has {} bytes, fewer than its byteLength of {}; copy or export the file again",
                                 grouped(bytes.size()), grouped(length)));
     return bytes.substr(0, length);
+}
+
+std::string_view GltfFile::image(const GltfValue& image) {
+    const std::lock_guard lock(mutex_);
+    return image.has("uri") ? bytes_of_uri(image) : view(image["bufferView"].target(root(), "bufferViews"));
 }
 
 std::string_view GltfFile::view(const GltfValue& view) {

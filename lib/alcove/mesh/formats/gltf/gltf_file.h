@@ -33,18 +33,21 @@ class GltfFile {
     std::string_view buffer(const GltfValue& buffer);
     /// The bytes of an element of `bufferViews`, decompressed at the first use.
     std::string_view view(const GltfValue& view);
+    /// The bytes of an element of `images`. \throw as buffer()
+    std::string_view image(const GltfValue& image);
 
   private:
     void parse_chunks();
     void parse_json(std::string_view text);
     void check_json(std::string_view text) const;
+    std::string_view bytes_of_uri(const GltfValue& holder);
 
     FileBytes bytes_;
     Json json_;
     bool is_binary_ = false, has_binary_chunk_ = false;
     std::string_view json_text_, binary_chunk_, other_chunks_;
-    std::recursive_mutex mutex_;               ///< of what follows, which is read at the first use
-    std::map<std::string, FileBytes> buffers_; ///< files by URI, data URIs by place
+    std::recursive_mutex mutex_;             ///< of what follows, which is read at the first use
+    std::map<std::string, FileBytes> files_; ///< of URIs: files by URI, data URIs by place
     std::map<std::string, std::string> decompressed_;
     double decompressed_bytes_ = 0.0;
 };

@@ -50,26 +50,63 @@ bool same_folder(const fs::path& a, const fs::path& b) {
 
 }
 
-GltfOutput::GltfOutput(const fs::path& target) : target_(target), is_binary_(is_glb(target)) {
+std::size_t count_values(const Json& json, std::string_view key, const Json& value) {
+    std::size_t count = 0;
+    if (json.is_structured())
+        for (const auto& [own, element] : json.items())
+            count += json.is_object() && own == key && element == value ? 1 : count_values(element, key, value);
+    return count;
+}
+
+GltfOutput::GltfOutput(const fs::path& target) : target_(target), is_binary_(is_glb(target)), in_chunk_(is_binary_) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "Alcove " ALCOVE_VERSION}};
 }
 
 GltfOutput::GltfOutput(const fs::path& target, GltfFile& file)
     : target_(target), is_binary_(is_glb(target)), is_indented_(file.is_indented()), json_(file.root().json()),
-      binary_(file.binary_chunk()), other_chunks_(is_binary_ ? file.other_chunks() : std::string_view()) {
-    const std::size_t buffers = json_.contains("buffers") ? json_["buffers"].size() : 0;
-    if (is_binary_ && !file.has_binary_chunk() && buffers == 1) {
-        binary_ = file.buffer(file.root()["buffers"][0]);
-        json_["buffers"][0].erase("uri");
-    } else if (buffers > 0 && (!file.has_binary_chunk() || json_["buffers"][0].contains("uri"))) {
-        appends_to_binary_ = false;
-    }
-    if (!is_binary_ && file.has_binary_chunk())
-        appends_to_binary_ = false;
+      other_chunks_(is_binary_ ? file.other_chunks() : std::string_view()) {
+    choose_buffer(file);
     if (!same_folder(file.bytes().path().parent_path(), target.parent_path())) {
         embed_buffers(file);
         move_images(file.bytes().path().parent_path());
     }
+}
+
+/// Chooses the buffer that new data is appended to.
+void GltfOutput::choose_buffer(GltfFile& file) {
+    const std::size_t buffers = json_.contains("buffers") ? json_["buffers"].size() : 0;
+    const bool has_chunk = file.has_binary_chunk() && !(buffers > 0 && json_["buffers"][0].contains("uri"));
+    const auto old_buffer = [&](std::size_t b) { return file.buffer(file.root()["buffers"][b]); };
+    if (is_binary_) {
+        chunk_ = file.binary_chunk();
+        buffer_ = has_chunk || buffers == 0 || (buffers == 1 && !file.has_binary_chunk()) ? 0 : buffers;
+        if (buffer_ == 0 && !file.has_binary_chunk() && buffers == 1) {
+            chunk_ = old_buffer(0);
+            json_["buffers"][0].erase("uri");
+        }
+        in_chunk_ = buffer_ == 0;
+        if (in_chunk_)
+            binary_ = chunk_;
+        return;
+    }
+    in_chunk_ = false;
+    if (has_chunk && buffers > 0)
+        set_data_uri(0, old_buffer(0));
+    const bool embedded = buffers > 0 && json_["buffers"][buffers - 1].contains("uri") &&
+                          is_data_uri(json_["buffers"][buffers - 1]["uri"].get_ref<const std::string&>());
+    buffer_ = embedded ? buffers - 1 : buffers;
+    if (embedded)
+        binary_ = old_buffer(buffer_);
+}
+
+void GltfOutput::set_data_uri(std::size_t buffer, std::string_view first, std::string_view second) {
+    Json made; // with the URI first, as is usual
+    made["uri"] = data_uri(octets, first, second);
+    Json& old = json_["buffers"][buffer];
+    old.erase("uri");
+    made.update(old);
+    made["byteLength"] = first.size() + second.size();
+    old = std::move(made);
 }
 
 void GltfOutput::embed_buffers(GltfFile& file) {
@@ -105,12 +142,15 @@ void GltfOutput::move_images(const fs::path& from) {
                             " kept, but no such file was found relative to the input folder");
 }
 
-std::size_t GltfOutput::add_view(std::string_view bytes, int target) {
+std::size_t GltfOutput::append(std::string_view bytes) {
     added_ += padding(added_.size(), '\0');
-    const std::size_t offset = (appends_to_binary_ ? padded(binary_.size()) : 0) + added_.size();
+    const std::size_t offset = padded(binary_.size()) + added_.size();
     added_ += bytes;
-    const std::size_t buffers = json_.contains("buffers") ? json_["buffers"].size() : 0;
-    Json view{{"buffer", appends_to_binary_ ? 0 : buffers}, {"byteOffset", offset}, {"byteLength", bytes.size()}};
+    return offset;
+}
+
+std::size_t GltfOutput::add_view(std::string_view bytes, int target) {
+    Json view{{"buffer", buffer_}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}};
     if (target != no_target)
         view["target"] = target;
     json_["bufferViews"].push_back(std::move(view));
@@ -163,14 +203,84 @@ std::size_t GltfOutput::add_indices(std::span<const std::uint32_t> values, std::
                          {"type", "SCALAR"}});
 }
 
-std::size_t GltfOutput::add_png(std::string_view bytes, const std::string& name) {
-    const std::size_t view = add_view(bytes, no_target); // may move the arrays of the root
-    json_["images"].push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
+std::size_t GltfOutput::add_png(std::string_view bytes, Json image) {
+    image.erase("uri");
+    image["bufferView"] = add_view(bytes, no_target);
+    image["mimeType"] = "image/png";
+    json_["images"].push_back(std::move(image));
     return json_["images"].size() - 1;
 }
 
+void GltfOutput::replace_png(std::size_t number, std::string_view bytes) {
+    Json& image = json_["images"][number];
+    image.erase("uri");
+    image["mimeType"] = "image/png";
+    const auto old = image.find("bufferView");
+    if (old == image.end() || count_values(json_, "bufferView", *old) > 1 ||
+        json_["bufferViews"][old->get<std::size_t>()].contains("extensions")) {
+        image["bufferView"] = add_view(bytes, no_target);
+        return;
+    }
+    const auto view = old->get<std::size_t>();
+    take_out(view);
+    json_["bufferViews"][view].update(
+        {{"buffer", buffer_}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}});
+}
+
+/// Removes the bytes of a view that nothing else needs from the buffer, and moves what follows.
+void GltfOutput::take_out(std::size_t number) {
+    struct Range {
+        Json* place; // of the offset
+        std::size_t begin, end;
+    };
+    std::vector<Range> ranges;
+    std::size_t own = 0;
+    for (std::size_t v = 0; v < json_["bufferViews"].size(); ++v) {
+        Json& view = json_["bufferViews"][v];
+        std::vector<Json*> places{&view};
+        if (view.contains("extensions"))
+            for (auto& [name, extension] : view["extensions"].items()) {
+                if (name != "EXT_meshopt_compression") // may have offsets, too
+                    return;
+                places.push_back(&extension);
+            }
+        if (v == number)
+            own = ranges.size();
+        for (Json* const place : places)
+            if (v == number || place->at("buffer") == buffer_) {
+                const auto begin = place->value("byteOffset", std::size_t(0));
+                ranges.push_back({place, begin, begin + place->at("byteLength").get<std::size_t>()});
+            }
+    }
+    const auto [view, begin, end] = ranges[own];
+    if (view->at("buffer") != buffer_ || begin > end || end > binary_.size())
+        return;
+    std::size_t next = std::min(padded(end), binary_.size());
+    for (std::size_t r = 0; r < ranges.size(); ++r)
+        if (r != own && ranges[r].end > begin) {
+            if (ranges[r].begin < end)
+                return;
+            next = std::min(next, ranges[r].begin);
+        }
+    const bool is_last = next == binary_.size(); // only new data follows
+    const std::size_t count = is_last ? next - begin : (next - begin) / 4 * 4, old_size = binary_.size();
+    own_binary().erase(begin, count);
+    binary_ = rewritten_;
+    const std::size_t shift = is_last ? padded(old_size) - padded(begin) : count; // what follows stays aligned
+    for (const Range& range : ranges)
+        if (range.begin > begin)
+            (*range.place)["byteOffset"] = range.begin - shift;
+}
+
+std::string& GltfOutput::own_binary() {
+    if (!is_rewritten_)
+        rewritten_ = binary_;
+    is_rewritten_ = true;
+    return rewritten_;
+}
+
 bool GltfOutput::overwrite(std::size_t accessor, int component_type, std::string_view bytes) {
-    if (!appends_to_binary_ || binary_.empty() || accessor >= json_["accessors"].size())
+    if (binary_.empty() || accessor >= json_["accessors"].size())
         return false;
     const Json& old = json_["accessors"][accessor];
     if (!old.contains("bufferView") || old.contains("sparse") || old.value("byteOffset", 0) != 0 ||
@@ -181,39 +291,30 @@ bool GltfOutput::overwrite(std::size_t accessor, int component_type, std::string
     });
     const Json& view = json_["bufferViews"][old["bufferView"].get<std::size_t>()];
     const std::size_t offset = view.value("byteOffset", std::size_t(0));
-    if (users != 1 || view["buffer"] != 0 || view["byteLength"] != bytes.size() || view.contains("byteStride") ||
+    if (users != 1 || view["buffer"] != buffer_ || view["byteLength"] != bytes.size() || view.contains("byteStride") ||
         view.contains("extensions") || offset > binary_.size() || bytes.size() > binary_.size() - offset)
         return false;
-    if (rewritten_.empty())
-        rewritten_ = binary_;
+    own_binary().replace(offset, bytes.size(), bytes);
     binary_ = rewritten_;
-    std::copy(bytes.begin(), bytes.end(), rewritten_.begin() + static_cast<std::ptrdiff_t>(offset));
     return true;
 }
 
-/// Gives the buffers their final lengths and, in a .gltf, their data.
-void GltfOutput::finish_buffers() {
-    if (!added_.empty()) {
-        const std::size_t length = (appends_to_binary_ ? padded(binary_.size()) : 0) + added_.size();
-        if (!appends_to_binary_)
-            json_["buffers"].push_back({{"uri", data_uri(octets, added_)}, {"byteLength", length}});
-        else if (json_.contains("buffers"))
-            json_["buffers"][0]["byteLength"] = length;
-        else
-            json_["buffers"].push_back({{"byteLength", length}});
-    }
-    if (!is_binary_ && json_.contains("buffers") && !json_["buffers"][0].contains("uri")) {
-        Json buffer; // with the URI first, as is usual
-        const bool grows = appends_to_binary_ && !added_.empty();
-        const std::string_view old = grows ? binary_ : binary_.substr(0, json_["buffers"][0]["byteLength"]);
-        buffer["uri"] = data_uri(octets, old, grows ? padding(binary_.size(), '\0') + added_ : "");
-        buffer.update(json_["buffers"][0]);
-        json_["buffers"][0] = std::move(buffer);
-    }
+/// Gives the buffer its final length and, outside the binary chunk, its data.
+void GltfOutput::finish_buffer() {
+    if (added_.empty() && !is_rewritten_)
+        return;
+    if (!added_.empty())
+        added_.insert(0, padding(binary_.size(), '\0'));
+    while (!json_.contains("buffers") || json_["buffers"].size() <= buffer_)
+        json_["buffers"].push_back(Json::object());
+    if (!in_chunk_)
+        set_data_uri(buffer_, binary_, added_);
+    else if (!added_.empty())
+        json_["buffers"][buffer_]["byteLength"] = binary_.size() + added_.size();
 }
 
 void GltfOutput::write() {
-    finish_buffers();
+    finish_buffer();
     const std::string text = json_.dump(!is_binary_ && is_indented_ ? 2 : -1);
     AtomicFile output(target_);
     if (!is_binary_) {
@@ -221,9 +322,8 @@ void GltfOutput::write() {
         output.commit();
         return;
     }
-    const bool grows = appends_to_binary_ && !added_.empty();
-    const std::string before = grows ? padding(binary_.size(), '\0') : "";
-    const std::size_t binary_size = binary_.size() + before.size() + (grows ? added_.size() : 0);
+    const std::string_view first = in_chunk_ ? binary_ : chunk_, second = in_chunk_ ? added_ : std::string_view();
+    const std::size_t binary_size = first.size() + second.size();
     constexpr std::size_t header = 12, chunk_header = 8;
     const std::size_t total = header + chunk_header + padded(text.size()) +
                               (binary_size > 0 ? chunk_header + padded(binary_size) : 0) + other_chunks_.size();
@@ -237,11 +337,8 @@ void GltfOutput::write() {
         after_text += number(padded(binary_size)) + std::string("BIN\0", 4);
     output.write(after_text);
     if (binary_size > 0) {
-        output.write(binary_);
-        if (grows) {
-            output.write(before);
-            output.write(added_);
-        }
+        output.write(first);
+        output.write(second);
         output.write(padding(binary_size, '\0'));
     }
     output.write(other_chunks_);

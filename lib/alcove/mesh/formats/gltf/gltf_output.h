@@ -13,12 +13,15 @@
 
 namespace alcove {
 
+/// How often a key has that value in JSON.
+std::size_t count_values(const Json& json, std::string_view key, const Json& value);
+
 class GltfOutput {
   public:
     /// An empty file.
     explicit GltfOutput(const std::filesystem::path& target);
     /// A copy of a file. In a .glb, its first buffer becomes the binary chunk if it is the only one. In another folder,
-    /// buffers that are files become part of the output. `file` must outlive this.
+    /// buffers that are files become part of the output. `file` must outlive this. \throw as GltfFile::buffer().
     GltfOutput(const std::filesystem::path& target, GltfFile& file);
 
     Json& json() { return json_; }
@@ -27,11 +30,13 @@ class GltfOutput {
     std::size_t add_positions(std::span<const float> values); ///< with their bounds
     std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
     std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
-    /// Replaces the values of an accessor if it alone has these bytes in the binary chunk, so that files do not grow
+    /// Replaces the values of an accessor if it alone has these bytes in an embedded buffer, so that files do not grow
     /// with each bake. \return whether it did.
     bool overwrite(std::size_t accessor, int component_type, std::string_view bytes);
-    /// Appends a PNG, and returns the index in `images`.
-    std::size_t add_png(std::string_view bytes, const std::string& name);
+    /// Appends a PNG with the other values of `image`, and returns the index in `images`.
+    std::size_t add_png(std::string_view bytes, Json image);
+    /// Replaces an image. Its bytes are removed if nothing else uses them.
+    void replace_png(std::size_t image, std::string_view bytes);
 
     /// Writes a .glb, or a .gltf with its data embedded. \throw IoError, LimitError beyond 4 GB.
     void write();
@@ -40,19 +45,27 @@ class GltfOutput {
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
+    void choose_buffer(GltfFile& file);
+    void set_data_uri(std::size_t buffer, std::string_view first, std::string_view second = {});
+    std::size_t append(std::string_view bytes); ///< returns the offset
     std::size_t add_view(std::string_view bytes, int target);
     std::size_t add_accessor(Json accessor);
+    void take_out(std::size_t view);
+    std::string& own_binary();
     void embed_buffers(GltfFile& file);
     void move_images(const std::filesystem::path& from);
-    void finish_buffers();
+    void finish_buffer();
 
     std::filesystem::path target_;
     bool is_binary_, is_indented_ = false;
     Json json_;
-    std::string_view binary_, other_chunks_; ///< of the file
-    std::string rewritten_;                  ///< a copy of binary_, if accessors were overwritten
-    bool appends_to_binary_ = true;          ///< else to a buffer of its own
-    std::string added_;                      ///< after binary_, which is padded to a multiple of 4
+    std::string_view chunk_, other_chunks_; ///< of the file
+    std::size_t buffer_ = 0;                ///< the one that is appended to
+    bool in_chunk_;                         ///< whether that is the binary chunk
+    std::string_view binary_;               ///< what the buffer has already
+    bool is_rewritten_ = false;             ///< whether binary_ is a copy
+    std::string rewritten_;                 ///< the copy
+    std::string added_;                     ///< after binary_, which is padded to a multiple of 4
     std::vector<std::string> warnings_;
 };
 

@@ -349,16 +349,16 @@ std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& docu
     return ValueWriter(output, document, mesh).write();
 }
 
-void add_comments(Json& json, const Mesh& mesh) {
-    if (mesh.added_comments.empty() || !json["asset"].is_object())
+void add_comments(Json& owner, std::span<const std::string> added) {
+    if (added.empty() || !owner.is_object())
         return;
-    Json& extras = json["asset"]["extras"];
+    Json& extras = owner["extras"];
     if (!extras.is_null() && (!extras.is_object() || (extras.contains("comments") && !extras["comments"].is_array())))
         return; // belongs to another program
     Json comments = Json::array();
     if (extras.is_object() && extras.contains("comments"))
         comments = extras["comments"];
-    for (const std::string& comment : mesh.added_comments) {
+    for (const std::string& comment : added) {
         const std::string program = comment.substr(0, comment.find(' ') + 1);
         Json kept = Json::array();
         for (const Json& line : comments)

@@ -26,7 +26,7 @@ std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> va
 /// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about that, and what is replaced.
 std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh);
 
-/// Puts Mesh::added_comments into the extras of the asset.
-void add_comments(Json& json, const Mesh& mesh);
+/// Puts comments into the extras of an asset or image. Each replaces those that begin with the same word.
+void add_comments(Json& owner, std::span<const std::string> comments);
 
 }

@@ -1,7 +1,9 @@
 #include "alcove/mesh/formats/gltf/gltf_write.h"
+
 #include "alcove/base/detail/messages.h"
 #include "alcove/mesh/detail/srgb.h"
 #include "alcove/mesh/formats/formats.h"
+#include "alcove/mesh/formats/gltf/gltf_textures.h"
 #include "alcove/mesh/formats/gltf/gltf_values.h"
 #include "alcove/mesh/formats/obj/materials.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
@@ -251,68 +253,6 @@ class GltfMaker {
     std::vector<std::string> lost_;
 };
 
-/// The index of the new texture in `textures`.
-std::size_t add_image(GltfOutput& output, const GltfTexture& texture) {
-    const std::size_t image = output.add_png(texture.png, "occlusion");
-    output.json()["textures"].push_back({{"source", image}});
-    return output.json()["textures"].size() - 1;
-}
-
-Json reference(std::size_t texture, int uv_set) {
-    Json reference = {{"index", texture}};
-    if (uv_set > 0)
-        reference["texCoord"] = uv_set;
-    return reference;
-}
-
-/// Appends a material.
-std::size_t add_material(Json& json, Json material = Json::object()) {
-    json["materials"].push_back(std::move(material));
-    return json["materials"].size() - 1;
-}
-
-/// How many primitives of the file have that material; none: no material.
-std::size_t count_uses(const GltfValue& root, const std::optional<std::size_t>& material) {
-    std::size_t uses = 0;
-    const GltfValue meshes = root["meshes"];
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const GltfValue primitives = meshes[m]["primitives"];
-        for (std::size_t p = 0; p < primitives.size(); ++p)
-            uses +=
-                primitives[p].has("material") ? material && primitives[p]["material"].count() == *material : !material;
-    }
-    return uses;
-}
-
-/// Gives the primitives of a texture its material, or a copy of it if others have it too. \return whether it had
-/// another occlusion texture.
-bool add_texture(GltfOutput& output, const GltfValue& root, const GltfTexture& texture) {
-    Json& json = output.json();
-    const std::size_t number = add_image(output, texture);
-    std::size_t material = texture.material.value_or(0);
-    if (!texture.material || count_uses(root, texture.material) > texture.primitives.size()) {
-        material = add_material(json, texture.material ? Json(json["materials"][*texture.material]) : Json::object());
-        for (const auto& [mesh, primitive] : texture.primitives)
-            json["meshes"][mesh]["primitives"][primitive]["material"] = material;
-    }
-    Json& occlusion = json["materials"][material]["occlusionTexture"];
-    const bool replaces = !occlusion.is_null();
-    occlusion = reference(number, texture.uv_set);
-    return replaces;
-}
-
-void add_texture_to_all(GltfOutput& output, const GltfTexture& texture) {
-    Json& json = output.json();
-    const std::size_t number = add_image(output, texture);
-    if (!json.contains("materials")) {
-        const std::size_t material = add_material(json);
-        for (Json& primitive : json["meshes"][0]["primitives"])
-            primitive["material"] = material;
-    }
-    for (Json& material : json["materials"])
-        material["occlusionTexture"] = reference(number, texture.uv_set);
-}
-
 std::vector<std::string> write_checked(const Mesh& mesh, const std::filesystem::path& file,
                                        std::span<const GltfTexture> textures) {
     const auto* document = dynamic_cast<const GltfDocument*>(mesh.source.get());
@@ -320,10 +260,9 @@ std::vector<std::string> write_checked(const Mesh& mesh, const std::filesystem::
     if (document != nullptr && document->vertex_count() == mesh.vertex_count()) {
         GltfOutput output(file, *document->file);
         messages = add_values(output, *document, mesh);
-        for (const GltfTexture& texture : textures)
-            if (add_texture(output, document->file->root(), texture))
-                messages.push_back("the occlusion texture of the input is replaced");
-        add_comments(output.json(), mesh);
+        for (std::string& message : add_textures(output, document->file->root(), textures))
+            messages.push_back(std::move(message));
+        add_comments(output.json()["asset"], mesh.added_comments);
         output.write();
         messages.insert(messages.end(), output.warnings().begin(), output.warnings().end());
         return messages;
@@ -336,7 +275,7 @@ std::vector<std::string> write_checked(const Mesh& mesh, const std::filesystem::
         messages.push_back(std::move(lost));
     for (const GltfTexture& texture : textures)
         add_texture_to_all(output, texture);
-    add_comments(output.json(), mesh);
+    add_comments(output.json()["asset"], mesh.added_comments);
     output.write();
     return messages;
 }

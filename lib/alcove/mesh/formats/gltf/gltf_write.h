@@ -17,11 +17,14 @@ struct GltfTexture {
     /// The primitives that show it: meshes of the file, and primitives in them.
     std::vector<std::pair<std::size_t, std::size_t>> primitives;
     int uv_set = 0;
-    std::string png; ///< the bytes of the image
+    std::string png;        ///< the bytes of the image
+    std::string comment{};  ///< how it was made; the first word is the program
+    bool is_packed = false; ///< it also replaces the metallic-roughness texture of the material
 };
 
-/// write_mesh() to a .glb or .gltf, with textures. For a mesh that does not come from glTF, the one texture belongs to
-/// all materials.
+/// write_mesh() to a .glb or .gltf, with textures. Those that the program made earlier, and metallic-roughness textures
+/// that are replaced, are removed where nothing else uses them. For a mesh that does not come from glTF, the one texture
+/// belongs to all materials.
 std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
                                     std::span<const GltfTexture> textures);
 

@@ -1,0 +1,24 @@
+/// The images of a glTF file, not decoded.
+#pragma once
+
+#include "alcove/mesh/formats/gltf/gltf_file.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace alcove {
+
+struct GltfImage {
+    std::string name;       ///< "scene.glb: images[3]", for messages
+    std::string_view bytes; ///< live as long as the file
+};
+
+/// The set of UVs on which a material shows its metallic-roughness texture; empty if there is none, or if
+/// KHR_texture_transform moves it.
+std::optional<std::size_t> metallic_roughness_uv_set(const GltfFile& file, std::size_t material);
+
+/// The image of that texture. \throw InputError if it is missing, or only in a format of an extension.
+GltfImage metallic_roughness_image(GltfFile& file, std::size_t material);
+
+}

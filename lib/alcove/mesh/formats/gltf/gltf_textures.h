@@ -1,0 +1,20 @@
+/// Adds occlusion textures to a glTF file.
+#pragma once
+
+#include "alcove/mesh/formats/gltf/gltf_output.h"
+#include "alcove/mesh/formats/gltf/gltf_write.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace alcove {
+
+/// Gives the primitives of each texture its material, or a copy of it if others have it too. `root` is the input.
+/// \return messages about what is replaced.
+std::vector<std::string> add_textures(GltfOutput& output, const GltfValue& root, std::span<const GltfTexture> textures);
+
+/// Adds the texture to all materials of the mesh of a new file.
+void add_texture_to_all(GltfOutput& output, const GltfTexture& texture);
+
+}

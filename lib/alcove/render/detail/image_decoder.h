@@ -1,0 +1,16 @@
+/// What the decoders of the image formats share.
+#pragma once
+
+#include "alcove/render/detail/decoded_image.h"
+
+namespace alcove {
+
+/// \throw LimitError if decoding the image takes more memory than the limit.
+void check_memory(const DecodedImage& image, const std::string& name);
+
+bool is_png(std::string_view bytes);
+DecodedImage decode_png(std::string_view bytes, const std::string& name, Decode what);
+bool is_jpeg(std::string_view bytes);
+DecodedImage decode_jpeg(std::string_view bytes, const std::string& name, Decode what);
+
+}
