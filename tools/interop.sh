@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Tests glTF files with the programs of others: Blender's exporter and gltfpack make the inputs, the Khronos validator
-# checks the outputs, and three.js shows them. Takes about a minute after the installation; the pictures are in
-# build/interop/out.
+# checks the outputs, and three.js and Alcove show the same colours. Takes a few minutes after the installation; the
+# pictures are in build/interop.
 #
 #     tools/interop.sh [--installed]    # with --installed: without what is not installed, naming what is skipped
 set -euo pipefail
@@ -29,6 +29,11 @@ if command -v blender >/dev/null; then
         { cat "$work/blender.log"; exit 1; }
 else
     echo "interop: skipped: scenes from Blender (blender is missing)"
+fi
+if [ -e "$work/in/instances.glb" ] && [ -d "$work/node_modules/three" ]; then
+    for name in five_objects instances; do
+        node "$work/draco.mjs" "$work/in/$name.glb" "$work/in/${name}_draco.glb"
+    done
 fi
 if command -v gltfpack >/dev/null; then
     for file in "$work"/in/*.glb; do
@@ -69,9 +74,18 @@ if [ -e "$work/in/textured.glb" ]; then
         check validate "$work/in/$name.glb" "$work/out/${name}_map.glb"
     done
 fi
+if [ -e "$work/in/packed.glb" ]; then
+    input=$work/in/packed.glb
+    for output in "$work"/out/packed{,_again}.glb; do # the second replaces the image of the first
+        check build/alcove bake "$input" -o "$output" --into texture --pack-orm --quiet
+        check validate "$work/in/packed.glb" "$output" --packed
+        input=$output
+    done
+fi
 if command -v chromium >/dev/null && [ -d "$work/node_modules/playwright-core" ] && [ -e "$work/out/textured_map.glb" ]; then
-    check node "$work/screenshots.mjs" "$work" out/{five_objects,instances,mirrored,instances_quantized,hierarchy}.glb=colors \
-        out/textured_map.glb=texture
+    check node "$work/screenshots.mjs" "$work" build/alcove \
+        out/{five_objects,five_objects_draco,five_objects_meshopt,five_objects_quantized,hierarchy,mirrored}.glb=colors \
+        out/{instances,instances_draco,instances_meshopt}.glb=colors out/{textured_map,packed_again}.glb=texture
 else
     echo "interop: skipped: three.js (chromium, npm or Blender is missing)"
 fi

@@ -130,6 +130,21 @@ def textured():
 
 
 @scene()
+def packed():
+    made = monkey()
+    unwrap(made)
+    image = bpy.data.images.new("metal", 256, 256, is_data=True)
+    image.generated_type = "UV_GRID"
+    made.data.materials.append(material("metal", (1, 1, 1, 1)))
+    nodes, links = made.data.materials[0].node_tree.nodes, made.data.materials[0].node_tree.links
+    texture, channels = nodes.new("ShaderNodeTexImage"), nodes.new("ShaderNodeSeparateColor")
+    texture.image = image
+    links.new(texture.outputs["Color"], channels.inputs["Color"])
+    links.new(channels.outputs["Green"], nodes["Principled BSDF"].inputs["Roughness"])
+    links.new(channels.outputs["Blue"], nodes["Principled BSDF"].inputs["Metallic"])
+
+
+@scene()
 def two_uv_sets():
     made = monkey()
     made.data.uv_layers[0].name = "tiled"

@@ -270,8 +270,9 @@ TEST_F(PackedTextures, LargeImagesAreRefusedBeforeTheyAreDecoded) {
 TEST_F(PackedTextures, TheImageDecidesTheSizeUnlessOneIsGiven) {
     GltfBuilder builder;
     for (const int size : {16, 8})
-        add_square(builder, metal(add_texture(
-                                builder, encode_png_file(size, 4, 3, 8, std::vector<std::uint16_t>(12 * size, 7)))));
+        add_square(builder, metal(add_texture(builder, encode_png_file(size, 4, 3, 8,
+                                                                       std::vector<std::uint16_t>(
+                                                                           std::size_t(12) * std::size_t(size), 7)))));
     const Mesh mesh = read_scene(builder);
     const MapOptions options{.width = 32, .height = 32};
     const OcclusionTextures kept = bake_occlusion_textures(mesh, {}, options, TexturePacking::size_of_image);

@@ -87,6 +87,7 @@ class ValueWriter {
         }
         for (const auto& [mesh, all] : instances)
             write_mesh(mesh, all);
+        separate_compressed();
         report();
         return std::move(messages_);
     }
@@ -261,6 +262,28 @@ class ValueWriter {
             }
             first += vertices.count;
         }
+    }
+
+    /// Gives primitives that share compressed data, but not the added values, buffer views of their own to the same
+    /// bytes: three.js shows the same values where the buffer views are the same.
+    void separate_compressed() {
+        const auto view = Json::json_pointer("/extensions/KHR_draco_mesh_compression/bufferView");
+        const Json& old = document_.file->root().json()["meshes"];
+        Json& meshes = output_.json()["meshes"];
+        std::map<std::size_t, Json> attributes; // of the first primitive with each view
+        for (std::size_t m = 0; m < meshes.size(); ++m)
+            for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+                Json& primitive = meshes[m]["primitives"][p];
+                if (!primitive.contains(view))
+                    continue;
+                const auto number = primitive[view].get<std::size_t>();
+                const Json& first = attributes.try_emplace(number, primitive["attributes"]).first->second;
+                if (first == primitive["attributes"] || (m < old.size() && old[m]["primitives"][p] == primitive))
+                    continue;
+                Json& views = output_.json()["bufferViews"];
+                views.push_back(Json(views.at(number)));
+                primitive[view] = views.size() - 1;
+            }
     }
 
     /// How many primitives of the file have each accessor as an attribute.
