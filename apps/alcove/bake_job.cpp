@@ -2,6 +2,7 @@
 
 #include "ending.h"
 #include "inputs.h"
+#include "weld.h"
 
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
@@ -109,6 +110,10 @@ class BakeJob {
             mesh_ = surface_of(grid_, file_.input, verb_.adaptivity);
         } else {
             mesh_ = read_mesh(file_.input);
+            if (options.weld)
+                check_has_faces(mesh_, file_.input, "--weld");
+            if (!verb_.tessellate.empty())
+                check_has_faces(mesh_, file_.input, "--tessellate");
             if (options.weld && mesh_.format == "STL") // its vertices come from joining anyway
                 mesh_ = join_vertices(mesh_, *std::exchange(options.weld, std::nullopt)).mesh;
             if (!verb_.grid.empty())

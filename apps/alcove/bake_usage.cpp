@@ -98,6 +98,9 @@ void check_output(const BakeVerb& verb, const std::string& output) {
         return check_texture_usage(verb, output);
     if (is_map(output))
         return check_map_usage(verb, output);
+    if (verb.map.sized && is_gltf(output))
+        throw UsageError("--size, --subsamples and --margin are for textures: add --into texture, or write a .png or "
+                         ".exr");
     if (verb.map.given())
         throw UsageError(
             "--size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage, "

@@ -31,10 +31,16 @@ void add_weld_option(CLI::App& verb, std::optional<Length>& weld) {
         ->type_name("LEN");
 }
 
+void check_has_faces(const Mesh& mesh, const std::string& file, const std::string& option) {
+    if (mesh.face_count() == 0)
+        throw UsageError(option + " is for meshes, but " + file + " contains points: leave it out");
+}
+
 Mesh read_welded(const std::string& file, const std::optional<Length>& weld) {
     Mesh mesh = read_mesh(file);
     if (!weld)
         return mesh;
+    check_has_faces(mesh, file, "--weld");
     Mesh joined = join_vertices(mesh, *weld).mesh;
     joined.source = mesh.source;
     return joined;

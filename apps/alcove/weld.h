@@ -1,4 +1,4 @@
-/// The option --weld.
+/// The option --weld, and which inputs options like it are for.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -14,6 +14,9 @@ namespace alcove::cli {
 
 /// Adds --weld (empty: not given).
 void add_weld_option(CLI::App& verb, std::optional<Length>& weld);
+
+/// \throw UsageError that the option is not for points, if these are some.
+void check_has_faces(const Mesh& mesh, const std::string& file, const std::string& option);
 
 /// read_mesh(), with its vertices joined if `weld` is set. Not to be written: `source` is still that of the file.
 Mesh read_welded(const std::string& file, const std::optional<Length>& weld);

@@ -70,6 +70,9 @@ TEST_F(BakeGltf, WritesOcclusionTextures) {
     EXPECT_EQ(run({"bake", "sheet.glb", "-o", "map.png", "--size", "64", "--uv-set", "1"}).code, done);
     expect_refusal({"bake", "sheet.glb", "-o", "map.png", "--uv-set", "2"}, bad_input, {"--uv-set 2", "2 sets of UVs"});
     expect_refusal({"bake", "sheet.glb", "-o", "out.ply", "--into", "texture"}, usage, {"--into texture", ".glb"});
+    expect_refusal({"bake", "sheet.glb", "-o", "out.glb", "--size", "64"}, usage, {"--size", "--into texture"});
+    expect_refusal({"bake", "sheet.glb", "-o", "out.glb", "--into", "texture", "--size", "20000"}, usage,
+                   {"--size takes 1 to 16384 texels"});
     write_room();
     expect_refusal({"bake", "room.glb", "-o", "out.glb", "--into", "texture"}, bad_input,
                    {"no set of UVs without overlaps", "--into vertices"});
@@ -126,6 +129,12 @@ TEST_F(BakeGltf, PointsKeepTheirOrderAndProperties) {
     write("cube.off", cube_off);
     EXPECT_EQ(run({"bake", "cube.off", "-o", "cube.ply", "--occluder", "points.ply"}).code, done);
     expect_refusal({"measure", "points.ply", "--json", "out.json"}, bad_input, {"points.ply", "no faces"});
+    for (const char* option : {"--weld", "--tessellate"})
+        expect_refusal({"bake", "points.ply", "-o", "out.ply", option, "0.1"}, usage,
+                       {option, "points.ply contains points"});
+    expect_refusal({"voxelize", "points.ply", "-o", "out.vdb", "--weld", "0.1"}, usage, {"--weld", "contains points"});
+    expect_refusal({"render", "points.ply", "-o", "out.png", "--weld", "0.1"}, bad_input, {"weld", "contains points"});
+    expect_refusal({"info", "points.ply", "--weld", "0.1"}, usage, {"--weld", "contains points"});
 }
 
 }

@@ -62,7 +62,10 @@ class Loader {
     void load_mesh(const MeshShape& shape, LoadedShape& loaded) {
         std::shared_ptr<LoadedMesh>& file = meshes_[key_of(shape)];
         if (!file) {
-            file = std::make_shared<LoadedMesh>(LoadedMesh{with_surface(read_mesh(shape.file)), {}});
+            Mesh read = read_mesh(shape.file);
+            if (shape.weld && read.face_count() == 0)
+                throw InputError(shape.file.string() + ": contains points, but weld is for meshes: leave it out");
+            file = std::make_shared<LoadedMesh>(LoadedMesh{with_surface(std::move(read)), {}});
             if (shape.weld)
                 file->mesh = join_vertices(file->mesh, *shape.weld).mesh;
             file->triangles = triangulate(file->mesh).triangles;
