@@ -303,6 +303,22 @@ TEST_F(GltfWrite, OtherFormatsBecomeOneNodeWithMaterials) {
             }
 }
 
+TEST_F(GltfWrite, TheOnlyObjectOfAnObjNamesTheNode) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\n", face = "f 1 2 3\n";
+    const auto name = [&](const std::string& lines) {
+        write_mesh(read("in.obj", vertices + lines), path("out.glb"));
+        const Json json = written("out.glb").json;
+        EXPECT_EQ(json["nodes"][0].value("name", ""), json["meshes"][0].value("name", ""));
+        return json["nodes"][0].value("name", "");
+    };
+    EXPECT_EQ(name("o chair\n" + face), "chair");
+    EXPECT_EQ(name("o chair\nusemtl red\n" + face + "g legs\nusemtl blue\n" + face), "chair");
+    EXPECT_EQ(name("g legs\n" + face), "legs");
+    EXPECT_EQ(name("o chair\n" + face + "o table\n" + face), "");
+    EXPECT_EQ(name("usemtl red\n" + face), "");
+    EXPECT_EQ(name(face), "");
+}
+
 TEST_F(GltfWrite, FarCoordinatesMoveIntoTheNode) {
     Mesh mesh = read("in.obj", "v 100000000 0 0\nv 100000001 0 0\nv 100000001 1 0\nf 1 2 3\n");
     write_mesh(mesh, path("out.glb"));

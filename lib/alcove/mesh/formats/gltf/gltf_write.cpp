@@ -104,6 +104,8 @@ class GltfMaker {
                 linear_colors(gathered(colors, 1), adds ? mesh_.added_encoding : ColorEncoding::srgb));
         Json made = primitives(attributes); // adds materials, which moves the arrays of the root
         json["meshes"].push_back({{"primitives", std::move(made)}});
+        if (const std::string name = object_name(); !name.empty())
+            json["nodes"][0]["name"] = json["meshes"][0]["name"] = in_one_line(name);
         return std::move(lost_);
     }
 
@@ -176,6 +178,20 @@ class GltfMaker {
                 floats.push_back(std::isfinite(value) ? value : 0.0f);
         }
         attributes["TEXCOORD_0"] = output_.add_floats(floats, 2);
+    }
+
+    /// The name of the object or group of an OBJ that all faces belong to; empty if there are several, or none.
+    std::string object_name() const {
+        const auto* obj = dynamic_cast<const ObjDocument*>(mesh_.source.get());
+        if (obj == nullptr || mesh_.groups.empty() || mesh_.groups.front().names.empty())
+            return "";
+        const std::string& name = mesh_.groups.front().names.front();
+        const bool is_material = std::any_of(obj->material_uses.begin(), obj->material_uses.end(),
+                                             [&](const auto& use) { return use.name == name; });
+        const bool is_of_all = std::all_of(mesh_.groups.begin(), mesh_.groups.end(), [&](const FaceGroup& group) {
+            return !group.names.empty() && group.names.front() == name;
+        });
+        return is_of_all && !is_material ? name : "";
     }
 
     struct Material {
