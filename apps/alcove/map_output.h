@@ -25,8 +25,8 @@ struct MapRequest {
 /// Whether the name of an output ends in .png or .exr.
 bool is_map(const std::string& output);
 
-/// Adds --into, --pack-orm, --size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach, --cage,
-/// --miss-mask and --pack.
+/// Adds --into, --pack-orm, --size, --subsamples, --margin, --depth, --space, --flip-green, --uv-set, --high, --reach,
+/// --cage, --miss-mask and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
 /// \throw InputError if the mask of misses is not a .png, would replace a map or lacks the tiles of the output, or if
