@@ -38,7 +38,8 @@ enum class Via {
 };
 
 /// Receives the current work ("voxelizing", "baking") and the share of it that is done, in [0, 1]. The share restarts
-/// if the planner bakes again. Never called from two threads at once. An exception that it throws ends the bake.
+/// if the planner bakes again. Never called from two threads at once. An exception that it throws ends the bake;
+/// Cancellable ends it sooner.
 using BakeProgress = std::function<void(std::string_view work, double done)>;
 
 /// Faces by the names of their FaceGroup, in which * stands for any text and ? for any character.

@@ -6,13 +6,34 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace alcove {
+namespace {
+
+thread_local const std::atomic<bool>* cancel_requested = nullptr;
+
+}
+
+Cancellable::Cancellable(const std::atomic<bool>* requested) : outer_(std::exchange(cancel_requested, requested)) {}
+
+Cancellable::~Cancellable() {
+    cancel_requested = outer_;
+}
+
+void check_cancelled() {
+    if (cancel_requested != nullptr && cancel_requested->load(std::memory_order_relaxed))
+        throw Cancelled();
+}
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
     const std::size_t blocks = (count + grain - 1) / grain;
-    tbb::parallel_for(std::size_t{0}, blocks,
-                      [&](std::size_t block) { body(block * grain, std::min(count, (block + 1) * grain)); });
+    const std::atomic<bool>* const requested = cancel_requested;
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+        const Cancellable scope(requested); // a thread may work for several callers in turn
+        check_cancelled();
+        body(block * grain, std::min(count, (block + 1) * grain));
+    });
 }
 
 std::size_t thread_count() {

@@ -1,6 +1,7 @@
 /// Parallel loops. No other header depends on the threading library.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 
@@ -8,6 +9,25 @@ namespace alcove {
 
 /// Called with the share of the work that is done, in [0, 1]; never from two threads at once.
 using Progress = std::function<void(double done)>;
+
+/// Thrown by cancelled work. No std::exception, so that no handler of errors takes it for one.
+struct Cancelled {};
+
+/// While alive, the work of this thread throws Cancelled once `requested` is true: at the next block of parallel_for(),
+/// on any thread, or the next check_cancelled().
+class Cancellable {
+  public:
+    explicit Cancellable(const std::atomic<bool>* requested); ///< null: never cancelled
+    ~Cancellable();
+    Cancellable(const Cancellable&) = delete;
+    Cancellable& operator=(const Cancellable&) = delete;
+
+  private:
+    const std::atomic<bool>* outer_;
+};
+
+/// \throw Cancelled if the work of this thread is cancelled. Cost: a few instructions.
+void check_cancelled();
 
 /// Calls `body(begin, end)` for disjoint ranges that cover [0, count). Each is at most `grain` long and starts at a
 /// multiple of it, so the ranges do not depend on the number of threads. Blocks until all are done; rethrows an

@@ -149,6 +149,7 @@ ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uin
             if (wanted.has(channel.channel) || channel.channel == Channel::ao)
                 out[channel.channel] = values[channel.channel].data();
         for (std::size_t at = begin; at < end; at += batch.count) {
+            check_cancelled();
             batch.count = 0;
             for (std::size_t i = at; i < end && batch.count < SurfelBatch::capacity; ++i)
                 batch.push_back(surfels[order[i]], lift);

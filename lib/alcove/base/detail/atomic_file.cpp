@@ -1,6 +1,7 @@
 #include "alcove/base/detail/atomic_file.h"
 
 #include "alcove/base/detail/file_kind.h"
+#include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 
 #include <fcntl.h>
@@ -128,7 +129,8 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::write(std::string_view bytes) {
     while (!bytes.empty()) {
-        const ssize_t put = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 30));
+        check_cancelled();
+        const ssize_t put = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 26));
         if (put < 0 && errno != EINTR)
             fail(target_, "cannot be written");
         if (put > 0)
@@ -137,6 +139,7 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
+    check_cancelled();
     // First the contents, so that the name never belongs to a file that a power cut left incomplete.
     const bool synced = sync(descriptor_);
     if (!synced || ::close(std::exchange(descriptor_, -1)) != 0)

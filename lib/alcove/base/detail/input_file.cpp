@@ -3,6 +3,7 @@
 #include "alcove/base/detail/file_kind.h"
 #include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 
 #include <fcntl.h>
@@ -58,7 +59,8 @@ InputFile::Descriptor::~Descriptor() {
 
 std::size_t InputFile::read(char* to, std::size_t count) {
     for (;;) {
-        const ssize_t got = ::read(descriptor_.number, to, std::min<std::size_t>(count, 1u << 30));
+        check_cancelled();
+        const ssize_t got = ::read(descriptor_.number, to, std::min<std::size_t>(count, 1u << 26));
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)

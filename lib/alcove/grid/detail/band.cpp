@@ -17,6 +17,7 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 /// Appends the sub-blocks of side `smallest` that have nodes, each with its nodes.
 void descend(const TriangleTree& tree, BandBlock from, Block block, int smallest, float reach,
              std::vector<BandBlock>& out) {
+    check_cancelled();
     if (block.size == smallest) {
         out.push_back(std::move(from));
         return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/parallel.h"
 #include "alcove/mesh/formats/file_bytes.h"
 #include "alcove/mesh/formats/text_encoding.h"
 
@@ -48,8 +49,9 @@ class TextScanner {
             at_ += is_blank(*at_) ? 1 : continuation_length(at_);
         return at_ == end_ || is_line_end(*at_) || is_comment(*at_);
     }
-    /// Moves past the end of this line.
+    /// Moves past the end of this line. \throw Cancelled
     void next_line() {
+        check_cancelled();
         bool in_comment = false, token_begins = true;
         for (; at_ < end_ && !is_line_end(*at_); ++at_) {
             in_comment |= token_begins && is_comment(*at_);

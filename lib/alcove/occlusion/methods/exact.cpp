@@ -1,5 +1,6 @@
 #include "alcove/occlusion/methods/exact.h"
 
+#include "alcove/base/parallel.h"
 #include "alcove/field/detail/trace.h"
 
 #include <array>
@@ -23,6 +24,7 @@ void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, co
         batch.count = 0;
     };
     for (std::size_t i = 0; i < surfels.count; ++i) {
+        check_cancelled(); // a surfel may have a million rays
         const Basis basis(surfels.normal(i));
         const Vec3 origin = surfels.origin(i, ray_offset(radius));
         const CosineLattice::Shift shift(hash(surfels.position(i), seed));

@@ -1,5 +1,6 @@
 #include "alcove/base/detail/atomic_file.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/parallel.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/obj/obj_document.h"
 #include "alcove/mesh/formats/obj/obj_file_names.h"
@@ -57,6 +58,7 @@ class TextCopy {
 
     /// Copies up to `end`, which no replacement crosses.
     void copy_until(std::size_t end) {
+        check_cancelled();
         for (; next_ != last_ && next_->begin < end; ++next_) {
             append(to_, text_.substr(from_, next_->begin - from_));
             append(to_, next_->text);
@@ -125,6 +127,7 @@ Buffer composed(const Mesh& mesh) {
     const ColorWriter writer;
     const std::vector<Color>& colors = mesh.added_colors.empty() ? mesh.vertex_colors : mesh.added_colors;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        check_cancelled();
         append(to, "v");
         for (int c = 0; c < 3; ++c)
             append_number(to, mesh.positions[v][c]);
@@ -138,6 +141,7 @@ Buffer composed(const Mesh& mesh) {
     for (const Vec3& n : mesh.normals)
         fmt::format_to(std::back_inserter(to), "vn {} {} {}\n", n.x, n.y, n.z);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        check_cancelled();
         append(to, "f");
         for (std::size_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
             const fmt::format_int vertex(std::size_t(mesh.corners[c]) + 1);
