@@ -1,10 +1,12 @@
 #include "alcove/grid/detail/pseudonormals.h"
 
 #include "alcove/base/detail/closest_point.h"
+#include "alcove/base/detail/morton_sort.h"
 #include "alcove/base/parallel.h"
 #include "alcove/mesh/detail/weld.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -34,13 +36,11 @@ Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const T
 
 void Pseudonormals::weight_normals() {
     vertex_normals_.assign(positions_.size(), Vec3(0.0f));
-    struct HalfEdge {
-        std::uint64_t key;
-        std::uint32_t slot;
-    };
-    std::vector<HalfEdge> half_edges;
+    const int bits = std::bit_width(positions_.size());
+    HugeVector<Keyed<std::uint64_t>> half_edges; // the two vertices of each, and its place
     half_edges.reserve(triangles_.size() * 3);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        check_cancelled();
         if (face_normals_[t] == Vec3(0.0f))
             continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -50,25 +50,24 @@ void Pseudonormals::weight_normals() {
                 corner_angle(positions_[at], positions_[next], positions_[last]) * face_normals_[t];
             const auto [low, high] = std::minmax(joined_[at], joined_[next]);
             const auto slot = static_cast<std::uint32_t>(3 * t + k);
-            half_edges.push_back({(std::uint64_t{low} << 32) | high, slot});
+            half_edges.push_back({std::uint64_t{low} << bits | high, slot});
         }
     }
-    std::sort(half_edges.begin(), half_edges.end(),
-              [](const HalfEdge& a, const HalfEdge& b) { return a.key != b.key ? a.key < b.key : a.slot < b.slot; });
+    radix_sort(half_edges, 0, 2 * bits);
 
     edge_normals_.assign(3 * triangles_.size(), Vec3(0.0f));
     std::vector<std::uint32_t> boundary;
     for (std::size_t begin = 0, end = 0; begin < half_edges.size(); begin = end) {
         Vec3 sum(0.0f);
         for (end = begin; end < half_edges.size() && half_edges[end].key == half_edges[begin].key; ++end)
-            sum += face_normals_[half_edges[end].slot / 3];
+            sum += face_normals_[half_edges[end].value / 3];
         if (end == begin + 1) {
             sum = Vec3(0.0f);
-            boundary.push_back(static_cast<std::uint32_t>(half_edges[begin].key >> 32));
-            boundary.push_back(static_cast<std::uint32_t>(half_edges[begin].key));
+            boundary.push_back(static_cast<std::uint32_t>(half_edges[begin].key >> bits));
+            boundary.push_back(static_cast<std::uint32_t>(half_edges[begin].key & ((std::uint64_t{1} << bits) - 1)));
         }
         for (std::size_t i = begin; i < end; ++i)
-            edge_normals_[half_edges[i].slot] = sum;
+            edge_normals_[half_edges[i].value] = sum;
     }
     for (const std::uint32_t v : boundary)
         vertex_normals_[v] = Vec3(0.0f);
