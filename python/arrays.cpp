@@ -38,11 +38,13 @@ py::array_t<T, py::array::c_style> rows(const py::object& object, py::ssize_t co
 template py::array_t<float, py::array::c_style> rows<float>(const py::object&, py::ssize_t, const std::string&);
 template py::array_t<double, py::array::c_style> rows<double>(const py::object&, py::ssize_t, const std::string&);
 
-std::vector<std::uint32_t> indices(const py::object& object, std::size_t limit, const std::string& argument) {
-    const py::array array = numeric(object, argument, "iu", "whole numbers");
-    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> numbers(array);
+namespace {
+
+template <class T>
+std::vector<std::uint32_t> checked(const py::array& array, std::size_t limit, const std::string& argument) {
+    const py::array_t<T, py::array::c_style | py::array::forcecast> numbers(array);
     std::vector<std::uint32_t> result(static_cast<std::size_t>(numbers.size()));
-    const std::int64_t* const values = numbers.data();
+    const T* const values = numbers.data();
     for (std::size_t i = 0; i < result.size(); ++i) {
         if (values[i] < 0 || static_cast<std::size_t>(values[i]) >= limit)
             throw py::value_error(fmt::format("{}: element {} is {}, not from 0 to {}", argument, i, values[i],
@@ -50,6 +52,18 @@ std::vector<std::uint32_t> indices(const py::object& object, std::size_t limit, 
         result[i] = static_cast<std::uint32_t>(values[i]);
     }
     return result;
+}
+
+}
+
+std::vector<std::uint32_t> indices(const py::object& object, std::size_t limit, const std::string& argument) {
+    const py::array array = numeric(object, argument, "iu", "whole numbers");
+    // The usual types without a copy, and all others as 64 bits.
+    if (py::isinstance<py::array_t<std::uint32_t>>(array))
+        return checked<std::uint32_t>(array, limit, argument);
+    if (py::isinstance<py::array_t<std::int32_t>>(array))
+        return checked<std::int32_t>(array, limit, argument);
+    return checked<std::int64_t>(array, limit, argument);
 }
 
 py::array_t<float> to_array(std::vector<float> values, std::size_t columns) {

@@ -1,6 +1,7 @@
 // Field: signed distances of meshes, grids and shapes.
 #include "arrays.h"
 #include "bindings.h"
+#include "run.h"
 
 #include "alcove/base/parallel.h"
 #include "alcove/field/detail/trace.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -26,6 +28,15 @@ namespace alcove::python {
 namespace {
 
 constexpr std::size_t grain = 4096;
+
+/// Runs work on points; on few of them, without the cost of another thread.
+void run_on(std::size_t points, const std::function<void()>& work) {
+    constexpr std::size_t few = 256;
+    if (points > few)
+        return run(work);
+    const py::gil_scoped_release released;
+    work();
+}
 
 /// A field in unit space with the frame of its scene.
 struct SceneField {
@@ -56,10 +67,7 @@ SceneField of_mesh(const py::object& object, const py::object& radius, const py:
                    const std::string& sign) {
     Mesh given = to_mesh(object, "mesh");
     Mesh mesh;
-    {
-        const py::gil_scoped_release released;
-        mesh = with_surface(std::move(given));
-    }
+    run([&] { mesh = with_surface(std::move(given)); });
     const Frame frame = frame_of(mesh.box());
     VoxelizeOptions options;
     if (!voxel.is_none())
@@ -69,8 +77,9 @@ SceneField of_mesh(const py::object& object, const py::object& radius, const py:
     options.sign = sign == "solid" ? SignChoice::solid : sign == "sheet" ? SignChoice::sheet : SignChoice::automatic;
     if (sign != "solid" && sign != "sheet" && sign != "auto")
         throw InputError("sign: takes auto, solid or sheet, not '" + sign + "'");
-    const py::gil_scoped_release released;
-    return of_stack(voxelize(mesh, triangulate(mesh).triangles, options));
+    std::optional<SceneField> field;
+    run([&] { field = of_stack(voxelize(mesh, triangulate(mesh).triangles, options)); });
+    return *std::move(field);
 }
 
 /// Calls f(points in unit space, index of the first one) for blocks of points.
@@ -90,14 +99,13 @@ void for_blocks(const SceneField& self, const double* positions, std::size_t cou
 py::array_t<float> map(const SceneField& self, const py::object& points) {
     const auto positions = rows<double>(points, 3, "points");
     std::vector<float> distances(static_cast<std::size_t>(positions.shape(0)));
-    {
-        const py::gil_scoped_release released;
+    run_on(distances.size(), [&] {
         for_blocks(self, positions.data(), distances.size(), [&](const Points& block, std::size_t first) {
             self.field.map(block, any_reach, distances.data() + first);
             for (std::size_t i = 0; i < block.count; ++i)
                 distances[first + i] = static_cast<float>(double(distances[first + i]) * self.frame.diagonal);
         });
-    }
+    });
     return to_array(std::move(distances));
 }
 
@@ -105,8 +113,7 @@ py::array_t<float> gradient(const SceneField& self, const py::object& points) {
     const auto positions = rows<double>(points, 3, "points");
     const auto count = static_cast<std::size_t>(positions.shape(0));
     std::vector<float> gradients(3 * count);
-    {
-        const py::gil_scoped_release released;
+    run_on(count, [&] {
         const float step = std::max(0.5f * self.field.resolution(), 1e-3f);
         parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -120,7 +127,7 @@ py::array_t<float> gradient(const SceneField& self, const py::object& points) {
                 }
             }
         });
-    }
+    });
     return to_array(std::move(gradients), 3);
 }
 
@@ -134,8 +141,7 @@ py::array_t<float> trace_rays(const SceneField& self, const py::object& origins,
         direction_of({ways.at(i, 0), ways.at(i, 1), ways.at(i, 2)}, "directions");
     const float far = length(radius, "radius").to_unit(self.frame.diagonal);
     std::vector<float> distances(static_cast<std::size_t>(starts.shape(0)));
-    {
-        const py::gil_scoped_release released;
+    run_on(distances.size(), [&] {
         TraceOptions options;
         options.far = far;
         options.hit_distance = options.shortest_step = std::max(0.05f * self.field.resolution(), 1e-5f);
@@ -153,7 +159,7 @@ py::array_t<float> trace_rays(const SceneField& self, const py::object& origins,
                                    ? static_cast<float>(double(rays.travelled[i - begin]) * self.frame.diagonal)
                                    : std::numeric_limits<float>::infinity();
         });
-    }
+    });
     return to_array(std::move(distances));
 }
 
@@ -179,10 +185,7 @@ py::array_t<float> ao(const SceneField& self, const py::object& points, const py
                       size > 0.0 && std::isfinite(size) ? Vec3(normal / size) : Vec3(0.0f)};
     }
     ChannelValues values;
-    {
-        const py::gil_scoped_release released;
-        values = evaluate(surfels, Occluders(self.field), chosen, settings, Channel::ao);
-    }
+    run_on(surfels.size(), [&] { values = evaluate(surfels, Occluders(self.field), chosen, settings, Channel::ao); });
     return to_array(std::move(values[Channel::ao]));
 }
 
@@ -212,8 +215,7 @@ py::tuple dense(const SceneField& self, const std::array<std::size_t, 3>& shape,
     }
     const Vec3d step = (high - low) / Vec3d(shape[0] - 1, shape[1] - 1, shape[2] - 1);
     std::vector<float> values(count);
-    {
-        const py::gil_scoped_release released;
+    run_on(count, [&] {
         parallel_for(shape[0], 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::size_t j = 0; j < shape[1]; ++j)
@@ -222,7 +224,7 @@ py::tuple dense(const SceneField& self, const std::array<std::size_t, 3>& shape,
                             static_cast<float>(double(self.field.map(self.frame.to_unit(low + step * Vec3d(i, j, k)))) *
                                                self.frame.diagonal);
         });
-    }
+    });
     const py::array_t<float> array =
         to_array(std::move(values))
             .reshape({static_cast<py::ssize_t>(shape[0]), static_cast<py::ssize_t>(shape[1]),
@@ -246,8 +248,9 @@ are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), tor
         .def_static(
             "read",
             [](const std::filesystem::path& file) {
-                const py::gil_scoped_release released;
-                return of_stack(read_grids(file));
+                std::optional<SceneField> field;
+                run([&] { field = of_stack(read_grids(file)); });
+                return *std::move(field);
             },
             py::arg("file"), "The level sets of a .vdb file")
         .def_static(

@@ -1,6 +1,8 @@
 // Mesh, read() and write().
 #include "arrays.h"
 #include "bindings.h"
+#include "messages.h"
+#include "run.h"
 
 #include "alcove/mesh/files.h"
 
@@ -152,7 +154,7 @@ The arrays that its properties return are read-only views, without a copy.)")
         .def_property_readonly(
             "name", [](const Mesh& mesh) { return mesh.name; }, "the file that it was read from")
         .def_property_readonly(
-            "warnings", [](const Mesh& mesh) { return mesh.warnings; }, "what reading had to leave out")
+            "warnings", [](const Mesh& mesh) { return in_python(mesh.warnings); }, "what reading had to leave out")
         .def(
             "attribute",
             [](const Mesh& mesh, const std::string& name) {
@@ -180,17 +182,21 @@ The arrays that its properties return are read-only views, without a copy.)")
     module.def(
         "read",
         [](const std::filesystem::path& file) {
-            const py::gil_scoped_release released;
-            return read_mesh(file);
+            Mesh mesh;
+            run([&] { mesh = read_mesh(file); });
+            return mesh;
         },
         py::arg("file"), R"(Reads a mesh: PLY, OBJ, OFF, STL or glTF. A PLY without faces is a set of points.
 
 Raises InputError, with the file, the place and a fix.)");
     module.def(
         "write",
-        // With the GIL: another thread could change the mesh.
-        [](const Mesh& mesh, const std::filesystem::path& file) { return write_mesh(mesh, file); }, py::arg("mesh"),
-        py::arg("file"), R"(Writes a mesh as PLY, OBJ or glTF; everything in its file is kept.
+        [](const Mesh& mesh, const std::filesystem::path& file) {
+            std::vector<std::string> messages;
+            run([&] { messages = write_mesh(mesh, file); }, Gil::kept);
+            return in_python(std::move(messages));
+        },
+        py::arg("mesh"), py::arg("file"), R"(Writes a mesh as PLY, OBJ or glTF; everything in its file is kept.
 
 The file is written completely or not at all. Returns what the format could not store, as messages. Raises InputError for
 any other extension, IoError if it cannot be written.)");

@@ -1,8 +1,11 @@
 // bake() and add(), the exceptions, and the module itself.
 #include "arrays.h"
 #include "bindings.h"
+#include "messages.h"
+#include "run.h"
 
 #include "alcove/bake/bake.h"
+#include "alcove/base/detail/limits.h"
 #include "alcove/maps/maps.h"
 
 #include <fmt/format.h>
@@ -44,15 +47,13 @@ T word(const std::string& text, const std::vector<std::pair<std::string, T>>& ch
     throw InputError(fmt::format("{}: takes {}, not '{}'", argument, known, text));
 }
 
-/// Reports progress, and lets Ctrl-C end the bake.
 BakeProgress progress_for(const py::object& callback) {
+    if (callback.is_none())
+        return {};
     // Shared, so that copies of the function need no GIL.
     return [kept = std::make_shared<py::object>(callback)](std::string_view work, double done) {
         const py::gil_scoped_acquire acquired;
-        if (PyErr_CheckSignals() != 0)
-            throw py::error_already_set();
-        if (!kept->is_none())
-            (*kept)(std::string(work), done);
+        (*kept)(std::string(work), done);
     };
 }
 
@@ -127,7 +128,15 @@ BakeOptions options_of(const py::dict& values) {
             else if (name == "voxel") {
                 if (!value.is_none())
                     options.voxel = length(find("voxel"), "voxel");
-            } else if (name == "seed")
+            } else if (name == "weld") {
+                if (!value.is_none())
+                    options.weld = length(find("weld"), "weld");
+            } else if (name == "point_size") {
+                if (!value.is_none())
+                    options.point_size = length(find("point_size"), "point_size");
+            } else if (name == "time_limit")
+                options.time_limit = value.cast<std::optional<double>>();
+            else if (name == "seed")
                 options.seed = value.cast<std::uint32_t>();
             else if (name == "threads")
                 options.threads = value.cast<unsigned>();
@@ -179,7 +188,8 @@ Result bake_any(const py::object& mesh_argument, const py::object& radius, const
                 const std::optional<double>& error, const std::string& method, const py::dict& parameters,
                 const py::object& attributes, const py::list& occluders, bool ground, const std::array<double, 3>& up,
                 bool self_only, const std::string& via, const std::string& normals, const std::string& sign,
-                const py::object& voxel, const py::object& points, std::uint32_t seed, unsigned threads,
+                const py::object& voxel, const py::object& weld, const py::object& point_size, const py::object& points,
+                std::uint32_t seed, unsigned threads, const std::optional<double>& time_limit,
                 const py::object& progress) {
     using namespace py::literals;
     const MeshArgument mesh(mesh_argument);
@@ -187,15 +197,17 @@ Result bake_any(const py::object& mesh_argument, const py::object& radius, const
         py::dict("radius"_a = radius, "quality"_a = quality, "error"_a = error, "method"_a = method,
                  "parameters"_a = parameters, "attributes"_a = attributes, "occluders"_a = occluders,
                  "ground"_a = ground, "up"_a = up, "self_only"_a = self_only, "via"_a = via, "normals"_a = normals,
-                 "sign"_a = sign, "voxel"_a = voxel, "seed"_a = seed, "threads"_a = threads, "progress"_a = progress));
+                 "sign"_a = sign, "voxel"_a = voxel, "weld"_a = weld, "point_size"_a = point_size, "seed"_a = seed,
+                 "threads"_a = threads, "time_limit"_a = time_limit, "progress"_a = progress));
     const Mesh& baked_mesh = mesh.get();
+    Result result;
     if (points.is_none()) {
-        const py::gil_scoped_release released;
-        return {bake(baked_mesh, options)};
+        run([&] { result.baked = bake(baked_mesh, options); });
+    } else {
+        const std::vector<SurfacePoint> surface_points = points_of(points, baked_mesh);
+        run([&] { result.baked = bake(baked_mesh, surface_points, options); });
     }
-    const std::vector<SurfacePoint> surface_points = points_of(points, baked_mesh);
-    const py::gil_scoped_release released;
-    return {bake(baked_mesh, surface_points, options)};
+    return result;
 }
 
 /// Texture maps of one tile.
@@ -205,7 +217,7 @@ struct MapResult {
 
 MapResult bake_maps_any(const py::object& mesh_argument, const py::object& size, int subsamples,
                         const std::optional<int>& margin, int uv_set, const std::string& space, const py::list& high,
-                        const py::kwargs& others) {
+                        const py::object& reach, const py::kwargs& others) {
     const MeshArgument mesh(mesh_argument);
     const BakeOptions options = options_of(others);
     MapOptions map;
@@ -226,9 +238,12 @@ MapResult bake_maps_any(const py::object& mesh_argument, const py::object& size,
     map.space = word<MapSpace>(space, {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}}, "space");
     for (const py::handle& item : high)
         map.high.push_back(to_mesh(py::reinterpret_borrow<py::object>(item), "high"));
+    if (!reach.is_none())
+        map.reach = length(reach, "reach");
     const Mesh& baked_mesh = mesh.get();
-    const py::gil_scoped_release released;
-    return {bake_maps(baked_mesh, options, map)};
+    MapResult result;
+    run([&] { result.maps = bake_maps(baked_mesh, options, map); });
+    return result;
 }
 
 py::object layer_of(const py::object& self, Channel channel) {
@@ -269,10 +284,12 @@ void add_maps(py::module_& module) {
             "method, rmse, radius, warnings and seconds");
     module.def("bake_maps", &bake_maps_any, py::arg("mesh"), py::kw_only(), py::arg("size") = 2048,
                py::arg("subsamples") = 1, py::arg("margin") = py::none(), py::arg("uv_set") = 0,
-               py::arg("space") = "tangent", py::arg("high") = py::list(), R"(Bakes texture maps on the UVs of a mesh.
+               py::arg("space") = "tangent", py::arg("high") = py::list(), py::arg("reach") = py::none(),
+               R"(Bakes texture maps on the UVs of a mesh.
 
 size: texels along each side, or (width, height). subsamples: samples along each side of a texel. margin: texels to fill around islands.
 uv_set: of a glTF file. space: "tangent" or "object", of directions. high: meshes whose surface is baked instead.
+reach: how far to look for them, a length.
 All other options are those of bake(). Returns a BakedMaps. Raises as bake(), and InputError without UVs.)");
 }
 
@@ -293,7 +310,7 @@ void add_result(py::module_& module) {
         .def_property_readonly(
             "radius", [](const Result& r) { return r.baked.radius; }, "in scene units")
         .def_property_readonly(
-            "warnings", [](const Result& r) { return r.baked.warnings; }, "one line each, with a fix")
+            "warnings", [](const Result& r) { return in_python(r.baked.warnings); }, "one line each, with a fix")
         .def_property_readonly(
             "seconds",
             [](const Result& r) {
@@ -327,15 +344,15 @@ void add_exceptions(py::module_& module) {
             if (pointer)
                 std::rethrow_exception(pointer);
         } catch (const InputError& error) {
-            PyErr_SetString(input, error.what());
+            PyErr_SetString(input, in_python(error.what()).c_str());
         } catch (const IoError& error) {
-            PyErr_SetString(io, error.what());
+            PyErr_SetString(io, in_python(error.what()).c_str());
         } catch (const LimitError& error) {
-            PyErr_SetString(limit, error.what());
+            PyErr_SetString(limit, in_python(error.what()).c_str());
         } catch (const alcove::MemoryError& error) {
-            PyErr_SetString(memory, error.what());
+            PyErr_SetString(memory, in_python(error.what()).c_str());
         } catch (const TimeLimitError& error) {
-            PyErr_SetString(time, error.what());
+            PyErr_SetString(time, in_python(error.what()).c_str());
         }
     });
 }
@@ -353,14 +370,16 @@ PYBIND11_MODULE(_alcove, module) {
     add_result(module);
     add_maps(module);
     add_field(module);
-    module.def(
-        "bake", &bake_any, py::arg("mesh"), py::kw_only(), py::arg("radius") = "10%", py::arg("quality") = "good",
-        py::arg("error") = py::none(), py::arg("method") = "", py::arg("parameters") = py::dict(),
-        py::arg("attributes") = std::vector<std::string>{"ao"}, py::arg("occluders") = py::list(),
-        py::arg("ground") = false, py::arg("up") = std::array<double, 3>{0.0, 1.0, 0.0}, py::arg("self_only") = false,
-        py::arg("via") = "grid", py::arg("normals") = "auto", py::arg("sign") = "auto", py::arg("voxel") = py::none(),
-        py::arg("points") = py::none(), py::arg("seed") = 0, py::arg("threads") = 0, py::arg("progress") = py::none(),
-        R"(Bakes ambient occlusion and masks at the vertices of a mesh, or at points on it.
+    module.def("bake", &bake_any, py::arg("mesh"), py::kw_only(), py::arg("radius") = "10%",
+               py::arg("quality") = "good", py::arg("error") = py::none(), py::arg("method") = "",
+               py::arg("parameters") = py::dict(), py::arg("attributes") = std::vector<std::string>{"ao"},
+               py::arg("occluders") = py::list(), py::arg("ground") = false,
+               py::arg("up") = std::array<double, 3>{0.0, 1.0, 0.0}, py::arg("self_only") = false,
+               py::arg("via") = "grid", py::arg("normals") = "auto", py::arg("sign") = "auto",
+               py::arg("voxel") = py::none(), py::arg("weld") = py::none(), py::arg("point_size") = py::none(),
+               py::arg("points") = py::none(), py::arg("seed") = 0, py::arg("threads") = 0,
+               py::arg("time_limit") = py::none(), py::arg("progress") = py::none(),
+               R"(Bakes ambient occlusion and masks at the vertices of a mesh, or at points on it.
 
     baked = alcove.bake(mesh, radius="10%", quality="good")
     baked.ao          # (n,) float32: 1 open, 0 fully occluded
@@ -375,10 +394,17 @@ occluders: a list of meshes that also occlude. ground: a plane through the lowes
 self_only: each connected part is occluded only by itself, the occluders and the ground.
 via: "grid", "auto" or "mesh": the methods that the planner may choose. normals: "auto", "file", "angle" or "area".
 sign: "auto", "solid" or "sheet". voxel: the edge of the finest voxel, a length.
+weld: joins vertices within this length before the bake. point_size: of a mesh without faces, the size of a point, a length.
 points: (positions, normals) or (positions, normals, faces): bake these points instead of the vertices.
-threads: 0 for one per core. progress: called with a text and the share that is done; what it raises ends the bake.
+threads: 0 for one per core. time_limit: seconds; a bake that would clearly take longer is refused.
+progress: called with a text and the share that is done, on any thread; what it raises ends the bake. So does Ctrl-C.
 
-Returns a Baked. Raises InputError, LimitError, MemoryError. The GIL is released, so several threads can bake at once.)");
+Returns a Baked. Raises InputError, LimitError, MemoryError, TimeLimitError. The GIL is released, so several threads can
+bake at once.)");
+    module.def("limit_memory", &limit_memory, py::arg("bytes"),
+               "Limits the memory for grids and maps; by default half of that of the machine. Applies to all threads.");
+    module.def("limit_reading", &limit_reading, py::arg("bytes"),
+               "Limits the bytes that are read from one file; by default half of the memory limit, at most 4 GB.");
     module.def(
         "add",
         [](Mesh& mesh, const Result& result, const std::string& color) {

@@ -21,9 +21,11 @@ from ._alcove import (  # noqa: F401
     add,
     bake,
     bake_maps,
+    limit_memory,
+    limit_reading,
     read,
     write,
 )
 
-__all__ = ["Baked", "BakedMaps", "Field", "InputError", "IoError", "LimitError", "MemoryError", "Mesh", "TimeLimitError", "add", "bake", "bake_maps",
-           "read", "write"]
+__all__ = ["Baked", "BakedMaps", "Field", "InputError", "IoError", "LimitError", "MemoryError", "Mesh", "TimeLimitError",
+           "add", "bake", "bake_maps", "limit_memory", "limit_reading", "read", "write"]

@@ -2,10 +2,14 @@
 
     PYTHONPATH=build/python /usr/bin/python3 tests/python/test_alcove.py build/alcove docs/python.md
 """
+import contextlib
+import ctypes
 import doctest
 import gc
 import os
+import re
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -43,6 +47,51 @@ def cube(n=1):
                         corners.reverse()
                     faces += [corners[:3], [corners[0], corners[2], corners[3]]]
     return np.array(points, float), np.array(faces, np.uint32)
+
+
+def grid(n):
+    """A flat sheet of n x n vertices, with triangles."""
+    x, y = np.meshgrid(np.arange(n, dtype=float), np.arange(n, dtype=float))
+    i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+    faces = np.concatenate([np.stack([i, i + 1, i + n + 1], 1), np.stack([i, i + n + 1, i + n], 1)])
+    return np.stack([x.ravel(), y.ravel(), np.zeros(n * n)], 1), faces.astype(np.uint32)
+
+
+def memory(name):
+    """Bytes of this process, such as VmRSS, the current ones, and VmHWM, the peak."""
+    with open("/proc/self/status") as status:
+        return next(1024 * int(line.split()[1]) for line in status if line.startswith(name))
+
+
+def peak_growth(work):
+    """The bytes that work() needs at its peak, in addition to those in use."""
+    gc.collect()
+    ctypes.CDLL(None).malloc_trim(0)  # else it may reuse memory that was freed before
+    with open("/proc/self/clear_refs", "w") as reset:
+        reset.write("5")
+    before = memory("VmRSS")
+    work()
+    return memory("VmHWM") - before
+
+
+class Alarm(Exception):
+    pass
+
+
+def raise_alarm(*_):
+    raise Alarm
+
+
+@contextlib.contextmanager
+def alarm(seconds, handler=raise_alarm):
+    """A signal after some seconds, as Ctrl-C would send it."""
+    old = signal.signal(signal.SIGALRM, handler)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
 
 
 class Arrays(unittest.TestCase):
@@ -190,6 +239,87 @@ class Bakes(unittest.TestCase):
         with self.assertRaises(Stop):
             alcove.bake(cube(20), progress=stop)
 
+    def test_a_signal_ends_a_bake(self):
+        shares = []
+        many = {"rays": 1 << 20}  # a minute of work, without progress before its end
+        with alarm(0.3), self.assertRaises(Alarm):
+            alcove.bake(cube(4), method="exact", parameters=many, progress=lambda work, done: shares.append(done))
+        self.assertNotIn(1.0, shares)
+        with alarm(0.3, signal.default_int_handler), self.assertRaises(KeyboardInterrupt):
+            alcove.bake_maps(alcove.Mesh(*cube(4), uvs=cube(4)[0][:, :2] / 4), size=64, method="exact", parameters=many)
+        field = alcove.Field(cube(4))
+        points = np.zeros((20000, 3)) + (2, 2, 4)
+        with alarm(0.3), self.assertRaises(Alarm):
+            field.ao(points, points * (0, 0, 1), parameters={"rays": 1 << 16})
+
+    def test_a_handler_that_does_not_raise_lets_a_bake_go_on(self):
+        handled = []
+        rays = {"rays": 20000}
+        expected = alcove.bake(cube(10), method="exact", parameters=rays).ao
+        with alarm(0.05, lambda *_: handled.append(1)):
+            ao = alcove.bake(cube(10), method="exact", parameters=rays).ao
+        self.assertTrue(handled)
+        np.testing.assert_array_equal(ao, expected)
+
+    def test_a_signal_ends_reading_and_writing(self):
+        mesh = alcove.Mesh(*grid(700))
+        alcove.write(mesh, self.path("large.obj"))
+        with open(self.path("old.obj"), "w") as old:
+            old.write("v 0 0 0\n")
+        with alarm(0.05), self.assertRaises(Alarm):
+            alcove.write(mesh, self.path("old.obj"))
+        with open(self.path("old.obj")) as old:
+            self.assertEqual(old.read(), "v 0 0 0\n")
+        with alarm(0.05), self.assertRaises(Alarm):
+            alcove.read(self.path("large.obj"))
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["large.obj", "old.obj"])
+
+    def test_a_bake_that_exceeds_its_time_limit_is_refused(self):
+        mesh = alcove.Mesh(*cube(20), uvs=cube(20)[0][:, :2] / 20)
+        slow = {"method": "exact", "parameters": {"rays": 1 << 16}, "time_limit": 0.01}
+        for call in (lambda: alcove.bake(mesh, **slow), lambda: alcove.bake_maps(mesh, size=512, **slow)):
+            with self.assertRaises(alcove.TimeLimitError) as caught:
+                call()
+            self.assertRegex(str(caught.exception), "raise time_limit by")
+        self.assertIsNotNone(alcove.bake(mesh, time_limit=1000.0).ao)
+        with self.assertRaises(alcove.InputError):
+            alcove.bake(mesh, time_limit=0)
+
+    def test_messages_name_arguments(self):
+        mesh = alcove.Mesh(*cube(4))
+        with self.assertRaises(alcove.InputError) as caught:
+            alcove.bake(mesh, normals="file")
+        self.assertIn('use normals="angle"', str(caught.exception))
+        with self.assertRaises(alcove.InputError) as caught:
+            alcove.bake(mesh, method="exact", error=0.1, parameters={"rays": 8})
+        self.assertEqual(str(caught.exception), 'parameters["rays"] cannot be combined with error or quality, which determine it')
+        with self.assertRaises(alcove.InputError) as caught:
+            alcove.bake((np.eye(3), None), self_only=True, weld="1%")
+        self.assertIn("self_only and weld are for meshes", str(caught.exception))
+        with self.assertRaises(alcove.InputError) as caught:
+            alcove.bake_maps(cube())
+        self.assertIn("the program's --tessellate auto", str(caught.exception))
+        warnings = alcove.bake(mesh, radius="1%", voxel="2%", method="classic").warnings
+        self.assertTrue(any(re.search('use voxel="[0-9.]+%" or less', warning) for warning in warnings), warnings)
+        vertices, faces = cube(8)
+        vertices = (vertices - 4) / np.linalg.norm(vertices - 4, axis=1, keepdims=True)
+        unwelded = vertices[faces.ravel()], np.arange(faces.size).reshape(-1, 3)
+        (warning,) = alcove.bake(unwelded, method="exact").warnings
+        self.assertIn('add weld="0.0001%"', warning)
+        welded = alcove.bake(unwelded, method="exact", weld="0.0001%")
+        self.assertEqual(welded.warnings, [])
+        np.testing.assert_array_equal(welded.ao, alcove.bake((vertices, faces), method="exact").ao[faces.ravel()])
+
+    def test_limits_of_memory_and_reading(self):
+        mesh = alcove.Mesh(*cube(30))
+        alcove.write(mesh, self.path("a.ply"))
+        run = lambda code: subprocess.run([sys.executable, "-c", "import alcove\n" + code, self.path("a.ply")], text=True,
+                                          stderr=subprocess.PIPE).stderr
+        self.assertRegex(run("import sys\nalcove.limit_reading(1000)\nalcove.read(sys.argv[1])"),
+                         r"LimitError.*raise limit_reading\(\)")
+        self.assertRegex(run("import sys\nalcove.limit_memory(2e6)\nalcove.Field(alcove.read(sys.argv[1]), voxel='0.1%')"),
+                         r"LimitError.*raise limit_memory\(\)")
+
     def test_two_threads_bake_at_once(self):
         meshes = [cube(10), cube(16)]
         expected = [alcove.bake(mesh).ao for mesh in meshes]
@@ -220,17 +350,21 @@ class Bakes(unittest.TestCase):
         self.assertTrue(np.isfinite(ao).all() and np.isfinite(vertices).all())
 
     def test_a_million_vertices_are_copied_once(self):
-        n = 1000
-        x, y = np.meshgrid(np.arange(n, dtype=float), np.arange(n, dtype=float))
-        vertices = np.stack([x.ravel(), y.ravel(), np.zeros(n * n)], 1)
-        i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
-        faces = np.concatenate([np.stack([i, i + 1, i + n + 1], 1), np.stack([i, i + n + 1, i + n], 1)]).astype(np.uint32)
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        mesh = alcove.Mesh(vertices, faces)
-        grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024
-        self.assertEqual(mesh.vertices.shape, (n * n, 3))
-        # Positions, corners as 64 bits on the way, and offsets.
-        self.assertLess(grown, vertices.nbytes + 3 * faces.nbytes + 4 * len(faces) + 2e7)
+        vertices, faces = grid(1000)
+        for indices in (faces, faces.astype(np.int32), faces.astype(np.int64)):
+            made = []
+            grown = peak_growth(lambda: made.append(alcove.Mesh(vertices, indices)))
+            copies = vertices.nbytes + faces.nbytes + 4 * (len(faces) + 1)
+            self.assertLess(grown, 1.05 * copies)
+            self.assertGreater(grown, 0.9 * copies)  # else the peak was not measured
+        mesh = made[0]
+        arrays = []
+        self.assertLess(peak_growth(lambda: arrays.extend((mesh.vertices, mesh.faces))), 1e6)
+        np.testing.assert_array_equal(arrays[0], vertices)
+        np.testing.assert_array_equal(arrays[1], faces)
+        baked = alcove.bake(mesh, method="classic")
+        self.assertLess(peak_growth(lambda: arrays.append(baked.ao)), 1e6)
+        self.assertTrue(np.shares_memory(baked.ao, arrays[2]))
 
     def test_nothing_leaks(self):
         vertices, faces = cube()
@@ -248,7 +382,12 @@ class Bakes(unittest.TestCase):
 
         call()
         counts = sys.getrefcount(vertices), sys.getrefcount(faces)
-        for calls, work in ((10000, call), (50, lambda: alcove.bake((vertices, faces), attributes=["ao", "bent_normal"]))):
+
+        def bake():
+            alcove.bake((vertices, faces), method="exact", parameters={"rays": 4}, attributes=["ao", "bent_normal"],
+                        progress=lambda work, done: None)
+
+        for calls, work in ((10000, call), (1000, bake)):
             for _ in range(calls // 5):
                 work()
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
