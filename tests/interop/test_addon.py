@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import time
+import types
 
 arguments = sys.argv[sys.argv.index("--") + 1:]
 ADDON, PROGRAM, FOLDER = map(os.path.abspath, arguments[:3])
@@ -171,13 +172,65 @@ bpy.context.preferences.addons["alcove_ao"].preferences.program = "/nowhere/alco
 check("Alcove was not found" in error_of(attribute="never"), "without both, the message says so")
 check("never" not in thing.data.attributes, "nothing is written then")
 backend.alcove = module
-cancelled = backend.Bake(0.0, "good", False, PROGRAM, cancelled=lambda: True)
-try:
-    cancelled.vertices(evaluated(thing))
-    check(False, "a cancelled bake ends")
-except backend.Cancelled:
-    check(True, "a cancelled bake ends")
 
-# A picture of the vertex colours.
+
+# Blender without windows sends no events to a modal operator, so that the test sends them to its methods.
+class Modal:
+    def __init__(self):
+        self.reports = []
+
+    def report(self, kind, text):
+        self.reports.append((*kind, text))
+
+
+for name, value in vars(operator.OBJECT_OT_bake_alcove_ao).items():
+    if callable(value) and not name.startswith("__"):
+        setattr(Modal, name, value)
+
+
+def run_modal(event):
+    """Invokes the operator with an event first, and then with those of the timer."""
+    manager = types.SimpleNamespace(event_timer_add=lambda *_, **__: None, event_timer_remove=lambda _: None,
+                                    modal_handler_add=lambda _: None, progress_begin=lambda *_: None,
+                                    progress_update=lambda _: None, progress_end=lambda: None)
+    context = types.SimpleNamespace(scene=bpy.context.scene, preferences=bpy.context.preferences,
+                                    active_object=bpy.context.active_object,
+                                    selected_objects=bpy.context.selected_objects, window=None, window_manager=manager,
+                                    evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get)
+    modal = Modal()
+    result = modal.invoke(context, None)
+    while result == {"RUNNING_MODAL"}:
+        result = modal.modal(context, types.SimpleNamespace(type=event))
+        event = "TIMER"
+        time.sleep(0.01)
+    return result, modal.reports
+
+
+bpy.context.preferences.addons["alcove_ao"].preferences.program = PROGRAM
+bake(attribute="kept")
+before = values_of(thing, "kept")
+for with_module in (True, False) if module else (False,):
+    backend.alcove = module if with_module else None
+    name = "module" if with_module else "program"
+    settings(attribute="kept", quality="fine", radius=0.1)
+    result, reports = run_modal("ESC")
+    check(result == {"CANCELLED"} and reports == [("WARNING", "The bake was cancelled, and nothing was changed")],
+          "a cancelled bake says so (%s)" % name)
+    check(np.array_equal(values_of(thing, "kept"), before), "a cancelled bake changes no values (%s)" % name)
+    settings(attribute="never")
+    run_modal("ESC")
+    check("never" not in thing.data.attributes, "a cancelled bake adds no attribute (%s)" % name)
+    settings(attribute="modal_" + name)
+    result, reports = run_modal("TIMER")
+    check(result == {"FINISHED"} and reports[-1][0] == "INFO" and len(values_of(thing, "modal_" + name)) == len(before),
+          "a modal bake ends (%s)" % name)
+backend.alcove = None
+bpy.context.preferences.addons["alcove_ao"].preferences.program = "/nowhere/alcove"
+settings(attribute="never")
+result, reports = run_modal("TIMER")
+check(result == {"CANCELLED"} and reports[0][0] == "ERROR" and "Alcove was not found" in reports[0][1],
+      "a modal bake without the program says so")
+check("never" not in thing.data.attributes, "and writes nothing")
+
 print("%d failures" % len(failures))
 sys.exit(1 if failures else 0)
