@@ -78,6 +78,29 @@ def evaluated(thing):
     return operator.surface_of(thing, bpy.context.evaluated_depsgraph_get())
 
 
+def render(things, attribute, name):
+    """A picture of the colours, to look at."""
+    material = bpy.data.materials.new(attribute)
+    material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+    color, emission, output = map(nodes.new, ("ShaderNodeVertexColor", "ShaderNodeEmission", "ShaderNodeOutputMaterial"))
+    color.layer_name = attribute
+    links.new(color.outputs["Color"], emission.inputs["Color"])
+    links.new(emission.outputs["Emission"], output.inputs["Surface"])
+    for thing in things:
+        thing.data.materials.clear()
+        thing.data.materials.append(material)
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    bpy.context.collection.objects.link(camera)
+    camera.location, camera.rotation_euler = (8, -8, 7), (0.95, 0, 0.785)
+    scene = bpy.context.scene
+    scene.camera, scene.render.engine, scene.cycles.samples = camera, "CYCLES", 4
+    scene.cycles.use_denoising = False
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.filepath = 320, 240, os.path.join(FOLDER, name)
+    bpy.ops.render.render(write_still=True)
+
+
 # Suzanne, subdivided by a modifier that is applied.
 reset()
 thing = monkey(2)
@@ -106,6 +129,10 @@ for add, options in (("primitive_cube_add", {"location": (0, 0, 1)}), ("primitiv
 bpy.context.object.scale.x = -1
 bpy.ops.object.select_all(action="SELECT")
 things = [t for t in bpy.context.selected_objects]
+ok, _ = bake(radius=2.0, attribute="vertices")
+expected = program(backend.Surface.joined([evaluated(t) for t in things]), "--radius", "2.0")
+check(ok and np.array_equal(np.concatenate([values_of(t, "vertices") for t in things]), expected),
+      "vertex values of five objects equal those of the program")
 ok, seconds = bake(quality="fine", target="CORNER", radius=2.0)
 check(ok, "five objects, corners (%.2f s)" % seconds)
 joined = backend.Surface.joined([evaluated(t) for t in things])
@@ -139,9 +166,21 @@ torus.data.materials.append(material)
 ok, seconds = bake(target="IMAGE", radius=2.0)
 pixels = np.array(node.image.pixels[:]).reshape(128, 256, 4)[..., 0]
 check(ok and 0.0 <= pixels.min() < 0.6 and pixels.max() == 1.0, "an image (%.2f s): values %.2f to %.2f" % (seconds, pixels.min(), pixels.max()))
+if backend.alcove is not None:
+    surfaces = [operator.surface_of(t, bpy.context.evaluated_depsgraph_get(), needs_uvs=t == torus)
+                for t in bpy.context.selected_objects]
+    surfaces.sort(key=lambda surface: surface.uvs is None)
+    mesh, others = surfaces[0], [(s.vertices, (s.corners, s.offsets)) for s in surfaces[1:]]
+    truth = backend.alcove.bake_maps(
+        backend.alcove.Mesh(mesh.vertices, (mesh.corners, mesh.offsets), corner_normals=mesh.normals, corner_uvs=mesh.uvs),
+        size=(256, 128), occluders=others, radius=2.0, method="exact", parameters={"rays": 1024})
+    covered = truth.coverage == 1
+    rmse = np.sqrt(np.mean((pixels[::-1] - truth.ao)[covered] ** 2))
+    check(covered.sum() > 10000 and rmse < 0.02, "texels are within the quality of exact rays: RMSE %.4f" % rmse)
 node.image.filepath_raw = os.path.join(FOLDER, "torus.png")
 node.image.file_format = "PNG"
 node.image.save()
+render(things, "ao", "five_objects.png")
 
 # What goes wrong.
 def error_of(**values):
