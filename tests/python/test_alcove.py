@@ -394,7 +394,7 @@ class Bakes(unittest.TestCase):
             for _ in range(calls):
                 work()
             self.assertEqual((sys.getrefcount(vertices), sys.getrefcount(faces)), counts)
-            self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 8192)  # kB
+            self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 2048)  # kB
 
 
 class Fields(unittest.TestCase):
