@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Tests glTF files with the programs of others: Blender's exporter and gltfpack make the inputs, the Khronos validator
-# checks the outputs, and three.js and Alcove show the same colours. Takes a few minutes after the installation; the
-# pictures are in build/interop.
+# Tests Alcove with the programs of others. glTF: Blender's exporter and gltfpack make the inputs, the Khronos validator
+# checks the outputs, and three.js and Alcove show the same colours; the pictures are in build/interop. Blender: the
+# add-on. Python: the module as pip installs it. Debian: the packages, see tools/test_packages.sh.
 #
-#     tools/interop.sh [--installed]    # with --installed: without what is not installed, naming what is skipped
+#     tools/interop.sh [--installed]    # with --installed: without what is not installed or builds again, naming it
 set -euo pipefail
 cd "$(dirname "$0")/.."
-if [ "${1:-}" != --installed ]; then
-    packages=(blender gltfpack chromium)
+builds=true
+[ "${1:-}" != --installed ] || builds=false
+if $builds; then
+    packages=(blender gltfpack chromium debootstrap dpkg-dev help2man lintian python3-pip python3-skbuild python3-venv)
     command -v npm >/dev/null || packages+=(nodejs npm)
     tools/setup.sh "${packages[@]}"
     cmake --preset release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
@@ -99,6 +101,30 @@ if command -v blender >/dev/null && [ -d build/python/alcove ]; then
     check addon
 else
     echo "interop: skipped: the Blender add-on (blender or the Python module is missing)"
+fi
+if ! $builds; then
+    echo "interop: skipped: the Python module by pip, and the Debian packages (both build everything again)"
+else
+    pip_module() {
+        rm -rf "$work/venv" _skbuild
+        /usr/bin/python3 -m venv --system-site-packages "$work/venv"
+        CMAKE_CXX_COMPILER_LAUNCHER=ccache "$work/venv/bin/pip" install --no-build-isolation . >"$work/pip.log" 2>&1 ||
+            { tail -n 30 "$work/pip.log"; return 1; }
+        if ldd "$work"/venv/lib/python3*/site-packages/alcove/*.so | grep alcove; then
+            echo "interop: the module of pip needs libraries of the build"
+            return 1
+        fi
+        # From another folder, in which there is no module.
+        (cd "$work/in" && env -u PYTHONPATH ../venv/bin/python ../../../tests/python/test_alcove.py ../../alcove \
+            ../../../docs/python.md >../pip_test.log 2>&1) || { tail -n 30 "$work/pip_test.log"; return 1; }
+        rm -rf "$work/venv" _skbuild python/alcove.egg-info
+    }
+    check pip_module
+    if [ "$(id -u)" -eq 0 ]; then
+        check tools/test_packages.sh
+    else
+        echo "interop: skipped: the Debian packages (their test needs root)"
+    fi
 fi
 [ "$count" -gt 0 ] || echo "interop: nothing could be checked"
 echo "interop: $count checks, $failed failed"
