@@ -116,8 +116,9 @@ void add_mesh(py::module_& module) {
 
 Mesh(vertices, faces=None, normals=None, uvs=None, corner_normals=None, corner_uvs=None)
 
-vertices: (n, 3) numbers, copied once as float64. faces: (m, 3) or (m, k) whole numbers, or a pair (corners, offsets) for
-polygons: face i has the vertices corners[offsets[i]:offsets[i + 1]]. normals: (n, 3). uvs: (n, 2). corner_normals, corner_uvs: the same per corner.
+vertices: (n, 3) numbers, copied once as float64. faces: (m, 3) or (m, k) whole numbers, or a pair (corners, offsets)
+for polygons: face i has the vertices corners[offsets[i]:offsets[i + 1]]. normals: (n, 3). uvs: (n, 2).
+corner_normals, corner_uvs: the same per corner.
 The arrays that its properties return are read-only views, without a copy.)")
         .def(py::init(&make_mesh), py::arg("vertices"), py::arg("faces") = py::none(), py::arg("normals") = py::none(),
              py::arg("uvs") = py::none(), py::arg("corner_normals") = py::none(), py::arg("corner_uvs") = py::none())
@@ -198,8 +199,8 @@ Raises InputError, with the file, the place and a fix.)");
         },
         py::arg("mesh"), py::arg("file"), R"(Writes a mesh as PLY, OBJ or glTF; everything in its file is kept.
 
-The file is written completely or not at all. Returns what the format could not store, as messages. Raises InputError for
-any other extension, IoError if it cannot be written.)");
+The file is written completely or not at all. Returns what the format could not store, as messages. Raises InputError
+for any other extension, IoError if it cannot be written.)");
 }
 
 }

@@ -287,7 +287,8 @@ void add_maps(py::module_& module) {
                py::arg("space") = "tangent", py::arg("high") = py::list(), py::arg("reach") = py::none(),
                R"(Bakes texture maps on the UVs of a mesh.
 
-size: texels along each side, or (width, height). subsamples: samples along each side of a texel. margin: texels to fill around islands.
+size: texels along each side, or (width, height). subsamples: samples along each side of a texel.
+margin: texels to fill around islands.
 uv_set: of a glTF file. space: "tangent" or "object", of directions. high: meshes whose surface is baked instead.
 reach: how far to look for them, a length.
 All other options are those of bake(). Returns a BakedMaps. Raises as bake(), and InputError without UVs.)");
@@ -339,6 +340,7 @@ void add_exceptions(py::module_& module) {
     static PyObject* const limit = derived("LimitError", PyExc_ValueError, "A request exceeds a limit.");
     static PyObject* const memory = derived("MemoryError", PyExc_MemoryError, "The system has too little memory.");
     static PyObject* const time = derived("TimeLimitError", PyExc_RuntimeError, "The time limit is too short.");
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 gives the type
     py::register_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer)
@@ -384,8 +386,8 @@ PYBIND11_MODULE(_alcove, module) {
     baked = alcove.bake(mesh, radius="10%", quality="good")
     baked.ao          # (n,) float32: 1 open, 0 fully occluded
 
-mesh: a Mesh, or a pair (vertices, faces) of (n, 3) and (m, 3) arrays; a Mesh without faces is a set of points, which are
-    baked on their reconstructed surface.
+mesh: a Mesh, or a pair (vertices, faces) of (n, 3) and (m, 3) arrays; a Mesh without faces is a set of points, which
+    are baked on their reconstructed surface.
 radius: maximum distance of occluders: scene units, "10%" of the diagonal, or "inf".
 quality: "draft", "good" or "fine": an RMSE of at most 0.05, 0.02 or 0.005; error: any other RMSE.
 method: a name from `alcove methods` instead of the planner's choice, with parameters such as {"rays": 64}.
@@ -394,7 +396,7 @@ occluders: a list of meshes that also occlude. ground: a plane through the lowes
 self_only: each connected part is occluded only by itself, the occluders and the ground.
 via: "grid", "auto" or "mesh": the methods that the planner may choose. normals: "auto", "file", "angle" or "area".
 sign: "auto", "solid" or "sheet". voxel: the edge of the finest voxel, a length.
-weld: joins vertices within this length before the bake. point_size: of a mesh without faces, the size of a point, a length.
+weld: joins vertices within this length before the bake. point_size: a length, the size of a point without faces.
 points: (positions, normals) or (positions, normals, faces): bake these points instead of the vertices.
 threads: 0 for one per core. time_limit: seconds; a bake that would clearly take longer is refused.
 progress: called with a text and the share that is done, on any thread; what it raises ends the bake. So does Ctrl-C.

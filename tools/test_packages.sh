@@ -39,7 +39,7 @@ alcove.write(mesh, \"by_module.ply\")"
     test -s /usr/share/blender/scripts/addons/alcove_ao/__init__.py'
 cmake -S tests/consumer -B "$scratch/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$root/usr" >"$scratch/consumer.log"
 cmake --build "$scratch/consumer" >>"$scratch/consumer.log"
-"$scratch/consumer/consumer"
+(cd "$scratch" && consumer/consumer)
 
 inside 'apt-get purge -qy alcove alcove-blender libalcove-dev libalcove0.2 python3-alcove >>apt.log 2>&1'
 left=$(find "$root" -xdev -iname '*alcove*' -not -path "$root/work/*")
