@@ -62,15 +62,16 @@ TEST(Points, ASphereIsReconstructed) {
     EXPECT_LT(error_of_sphere(surface.mesh), 0.1 * spacing);
     EXPECT_TRUE(surface.mesh.warnings.empty());
     double volume = 0.0; // by the divergence theorem, so it also tells the orientation
+    const auto corner = [&](std::size_t f, std::size_t k) { return surface.mesh.positions[surface.mesh.face(f)[k]]; };
     for (std::size_t f = 0; f < surface.mesh.face_count(); ++f)
-        for (std::size_t k = 1; k < 3; ++k) {
-            const auto p = [&](std::size_t i) { return surface.mesh.positions[surface.mesh.face(f)[i]]; };
-            volume += glm::dot(p(0), glm::cross(p(k), p(k + 1))) / 6.0;
-        }
+        volume += glm::dot(corner(f, 0), glm::cross(corner(f, 1), corner(f, 2))) / 6.0;
     EXPECT_NEAR(volume / (4.0 / 3.0 * std::numbers::pi * radius * radius * radius), 1.0, 0.01);
     for (std::size_t i = 0; i < points.vertex_count(); ++i) {
         ASSERT_EQ(surface.normals[i], points.normals[i]);
         EXPECT_LT(glm::distance(surface.positions[i], points.positions[i]), 0.2 * spacing);
+        const std::size_t face = surface.faces[i];
+        const Vec3d a = corner(face, 0), normal = glm::normalize(glm::cross(corner(face, 1) - a, corner(face, 2) - a));
+        EXPECT_NEAR(glm::dot(surface.positions[i] - a, normal), 0.0, 1e-5 * spacing);
     }
 }
 

@@ -87,7 +87,7 @@ struct PointOptions {
 
 /// The surface of points.
 struct PointSurface {
-    Mesh mesh; ///< quads; Mesh::warnings counts points that were left out and normals that were estimated
+    Mesh mesh; ///< triangles; Mesh::warnings counts points that were left out and normals that were estimated
     /// Where the points lie on it, scene units, and their normals. Zero normals: outliers, points that are not finite, and
     /// points where there is no surface.
     std::vector<Vec3d> positions;

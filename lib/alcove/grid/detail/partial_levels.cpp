@@ -24,8 +24,8 @@ void sort_unique(Bricks& bricks) {
     bricks.erase(std::unique(bricks.begin(), bricks.end()), bricks.end());
 }
 
-/// The bricks of a level whose voxels are 1 / `finer` of those of `voxels`. The last layer of cells of a brick needs the
-/// next brick, so these are added.
+/// The bricks around `voxels` on a level whose voxels are `finer` times smaller. The last layer of cells in a brick
+/// needs the next bricks, so those are added, too.
 Bricks bricks_around(std::span<const Index3> voxels, int finer) {
     Bricks bricks;
     for (const Index3& v : voxels) {

@@ -271,7 +271,13 @@ void PointField::build_surface() {
                 continue;
             if (begin >= 0.0f) // outside at the begin
                 std::reverse(quad.begin(), quad.end());
-            mesh.add_face(quad);
+            // As triangles, so that no one splits it along the other diagonal.
+            const auto diagonal = [&](std::size_t k) {
+                return glm::distance(mesh.positions[quad[k]], mesh.positions[quad[k + 2]]);
+            };
+            const std::size_t first = diagonal(0) <= diagonal(1) ? 0 : 1;
+            for (const std::size_t k : {first, first + 2})
+                mesh.add_face(std::array{quad[k % 4], quad[(k + 1) % 4], quad[(k + 2) % 4]});
         }
 }
 
@@ -298,12 +304,10 @@ std::optional<PointField::Place> PointField::closest(const Vec3& point) const {
     for (std::uint32_t i = first_face_of_[nearest]; i < first_face_of_[nearest + 1]; ++i) {
         const std::uint32_t face = faces_of_[i];
         const auto p = [&](std::size_t k) { return surface_.positions[surface_.face(face)[k]]; };
-        for (const std::size_t k : {1u, 2u}) {
-            const Vec3d offset = closest_on_triangle(p(0), p(k), p(k + 1), Vec3d(point)).offset;
-            if (const double square = glm::dot(offset, offset); square < best_square) {
-                best_square = square;
-                best = Place{Vec3d(point) - offset, face};
-            }
+        const Vec3d offset = closest_on_triangle(p(0), p(1), p(2), Vec3d(point)).offset;
+        if (const double square = glm::dot(offset, offset); square < best_square) {
+            best_square = square;
+            best = Place{Vec3d(point) - offset, face};
         }
     }
     return best;

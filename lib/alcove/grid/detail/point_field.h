@@ -21,7 +21,7 @@ class PointField {
     /// `voxel` in unit space. Cost: about 0.5 µs per point. \throw LimitError if it exceeds the memory limit.
     PointField(const PointCloud& cloud, float voxel);
 
-    /// The surface where the function is known, as quads that face outward, unit space. One vertex per cell that the
+    /// The surface where the function is known, as triangles that face outward, unit space. One vertex per cell that the
     /// surface crosses, at the mean of its crossings with the edges of the cell (surface nets, Gibson 1998).
     const Mesh& surface() const { return surface_; }
 
