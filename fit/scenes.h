@@ -17,9 +17,9 @@ struct TrainingScene {
     SignChoice sign = SignChoice::automatic;
 };
 
-/// A scene made of `meshes`, which have a diagonal of 1 around the origin, or of generated shapes: a stretched mesh, a
-/// displaced one, several meshes together, primitives together, a corner of a room, or a part of blocks with pockets,
-/// ribs and walls.
+/// A scene made of `meshes`, each with its centre at the origin and a diagonal of 1, or of generated shapes: a
+/// stretched mesh, a displaced one, several meshes together, primitives together, a corner of a room, or a machine part
+/// built from blocks, with pockets, ribs and walls.
 TrainingScene random_scene(std::span<const Mesh> meshes, std::mt19937& random);
 
 /// The mesh in a random orientation.

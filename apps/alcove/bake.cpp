@@ -107,7 +107,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
          {"angle", NormalSource::angle},
          {"area", NormalSource::area}},
         "file: the file's normals; angle, area: means of the face normals, weighted by face angle at the vertex or by "
-        "face area; auto: the file's normals if it has any, else angle; for maps, with hard edges above 40 degrees")
+        "face area; auto: the file's normals if it has any, else angle (with hard edges above 40 degrees in a map)")
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);

@@ -134,11 +134,11 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
     add_choice<MapDepth>(
         verb, "--depth", request.files.depth,
         {{"8", MapDepth::eight}, {"16", MapDepth::sixteen}, {"half", MapDepth::half}, {"float", MapDepth::single}},
-        "Values of a map: 8 or 16 bits in a png, half or float in an exr. Default: 8, half")
+        "Bit depth of a map: 8 or 16 in a png, half or float in an exr. Default: 8, half")
         ->type_name("DEPTH");
-    add_choice<MapSpace>(verb, "--space", request.map.space,
-                         {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
-                         "Axes of directions in a map: tangent (MikkTSpace) or object (those of the mesh)")
+    add_choice<MapSpace>(
+        verb, "--space", request.map.space, {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
+        "Coordinate space of the directions in a map: tangent (MikkTSpace) or object (that of the mesh)")
         ->type_name("SPACE")
         ->default_str("tangent");
     verb.add_flag("--flip-green", request.map.flip_green, "Negate the green channel of directions, as DirectX expects");
@@ -151,9 +151,10 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         ->check(CLI::Range(0, 255).description(""))
         ->type_name("N")
         ->capture_default_str();
-    verb.add_option("--cage", request.cage,
-                    "A copy of the input with its vertices moved outward: texels look for the high mesh from there, "
-                    "instead of along the normals")
+    verb.add_option(
+            "--cage", request.cage,
+            "A copy of the input with its vertices moved outward: the search for the high mesh starts there, and "
+            "goes toward the input instead of along the normals")
         ->type_name("MESH");
     verb.add_option_function<std::string>(
             "--reach",
@@ -162,7 +163,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
                     request.map.reach = Length(text);
             },
             "How far to look for the high mesh, in front of the surface and behind it: a length, or auto (from the "
-            "distance of the meshes)")
+            "distance between the meshes)")
         ->check(parsable([](const std::string& text) {
             if (text != "auto")
                 length_without_vx(text, "auto, 0.2 (scene units) or 2% (of the diagonal of the high mesh)");
@@ -173,8 +174,8 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         ->type_name("FILE");
     verb.add_option_function<std::string>(
             "--pack", [&request](const std::string& text) { request.files.pack = parse_pack(text); },
-            "Write one png with these attributes as its channels, such as ao,thickness,convexity. A number fills a "
-            "channel")
+            "Write one png with these attributes as its channels, such as ao,thickness,convexity. A number in "
+            "place of a name sets that channel to a constant")
         ->check(parsable(parse_pack))
         ->excludes(verb.get_option("--attributes"))
         ->type_name("NAMES");

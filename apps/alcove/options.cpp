@@ -168,7 +168,9 @@ void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& 
     add_choice<SignChoice>(
         verb, "--sign", sign,
         {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}},
-        "solid: closed, with an inside; sheet: both sides of the faces count as outside; auto: depends on the mesh")
+        "Sign of the distances. solid: negative inside, for closed meshes; sheet: both sides of the faces count as "
+        "outside; "
+        "auto: chosen from the mesh")
         ->type_name("SIGN")
         ->default_str("auto");
 }
@@ -192,7 +194,7 @@ void add_point_size(CLI::App& verb, std::optional<Length>& size) {
 
 void add_grid_names(CLI::App& verb, std::vector<std::string>& names) {
     verb.add_option("--grid-name", names,
-                    "Use the level set of this name from the .vdb; repeat the option to unite several. "
+                    "Use the level set of this name from the .vdb; repeat the option for the union of several. "
                     "Default: all level sets")
         ->allow_extra_args(false)
         ->option_text("NAME");

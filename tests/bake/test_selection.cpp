@@ -11,7 +11,8 @@
 namespace alcove {
 namespace {
 
-/// A floor at z = 0 that faces up, and a lid of the same size 0.5 above it that faces down, in groups of these names.
+/// A floor at z = 0 that faces up, and a lid of the same size 0.5 above it that faces down, in groups named `floor` and
+/// `lid`.
 Mesh floor_and_lid() {
     Mesh mesh;
     for (const double z : {0.0, 0.5})

@@ -32,7 +32,7 @@ struct Triangles {
     Vec3d corner(std::size_t t, int c) const { return Vec3d(positions[triangles[t][c]]); }
 };
 
-/// A ring of triangles around the hub; `height` of the hub above it, and waves of the ring.
+/// A ring of triangles around the hub. `height` is that of the hub above the ring, `waves` the amplitude of its waves.
 Triangles ring(std::uint32_t count, float height, float waves) {
     Triangles result;
     const Vec3 hub = result.positions.front();

@@ -6,7 +6,7 @@
 
 namespace alcove {
 
-/// The frame of a scene that is five times as large as its unit space, and elsewhere.
+/// The frame of a scene that is five times as large as its unit space, and whose centre is not the origin.
 inline const Frame frame{{10.0, -20.0, 30.0}, 5.0};
 
 inline Renderable renderable_of(AnyField field, const Vec3& low, const Vec3& high) {

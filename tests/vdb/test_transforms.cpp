@@ -113,7 +113,7 @@ TEST_F(Transforms, TurnsScalesAndMirrorsMayBeCombined) {
     EXPECT_TRUE(stack_.warnings.empty());
 }
 
-/// Stretched by 2 along y, a ball is an ellipsoid, and its values are distances again.
+/// A ball that is stretched by 2 along y becomes an ellipsoid, and its values are computed anew as distances.
 TEST_F(Transforms, StretchedVoxelsBecomeCubes) {
     const auto grid = ball("clay", 1.0f, {0, 0, 0}, 0.05f);
     grid->transform().preScale(Vec3d(1, 2, 1));

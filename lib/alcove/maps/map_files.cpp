@@ -68,7 +68,8 @@ class PngValues {
     std::uint16_t operator()(std::size_t i) const {
         const Range& range = ranges_[components_ == 1 ? 0 : i % components_];
         const float share = std::clamp(range.scale * values_[i] + range.offset, 0.0f, 1.0f);
-        return static_cast<std::uint16_t>(most_ * share + 0.5f);
+        constexpr float half = 0.5f; // rounds, faster than lround()
+        return static_cast<std::uint16_t>(most_ * share + half);
     }
 
   private:

@@ -70,7 +70,7 @@ struct MapOptions {
     /// mesh itself then occludes nothing, and lengths relative to a diagonal refer to these meshes.
     std::vector<Mesh> high{};
     /// How far to look for the high meshes, in front and behind; in percent, of their diagonal. Empty: from the
-    /// distance of the meshes.
+    /// distance between the meshes.
     std::optional<Length> reach{};
     /// The vertices of the mesh, moved outward: texels then look from here, in the direction of the mesh.
     std::optional<Mesh> cage{};
@@ -116,8 +116,8 @@ struct BakedMaps {
 /// faces that looks outward. Texels without one get the values of their neighbours.
 ///
 /// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of a million texels and
-/// more that are baked for ao alone, with an error of at least 0.01, texels get the mean of their neighbours where these
-/// differ by less than the error. Thread-safety as bake().
+/// more that are baked for ao alone, with an error of at least 0.01, texels get the mean of their neighbours where
+/// these differ by less than the error. Thread-safety as bake().
 /// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});
@@ -150,8 +150,8 @@ struct OcclusionTextures {
 /// With packing, the UVs are those of the metallic-roughness texture if they are without overlaps. Otherwise, and where
 /// there is no such texture, the material gets a texture of its own; Baked::warnings says so.
 /// TexturePacking::size_of_image bakes at the size of the largest of these images.
-/// \throw as bake_maps(), InputError that names the meshes for which no set of UVs is without overlaps, or an image that
-/// is damaged, missing, or neither PNG nor JPEG, and LimitError if an image does not fit in memory.
+/// \throw as bake_maps(), InputError that names the meshes for which no set of UVs is without overlaps, or an image
+/// that is damaged, missing, or neither PNG nor JPEG, and LimitError if an image does not fit in memory.
 OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake = {},
                                           const MapOptions& options = {},
                                           TexturePacking packing = TexturePacking::none);

@@ -36,8 +36,7 @@ class MaterialFaces {
         }
         std::map<std::size_t, std::size_t> first; // placement of each mesh
         for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-            const std::size_t begin = mesh.groups[g].first_face,
-                              end = g + 1 < mesh.groups.size() ? mesh.groups[g + 1].first_face : mesh.face_count();
+            const std::size_t begin = mesh.groups[g].first_face, end = mesh.group_end(g);
             if (!baked[begin])
                 continue;
             const auto& [placement, primitive, material] = document->group_primitives[g];

@@ -69,6 +69,10 @@ struct Mesh {
         return {corners.data() + face_begin[f], corners.data() + face_begin[f + 1]};
     }
     void add_face(std::span<const std::uint32_t> vertices);
+    /// The face after the last one of a group.
+    std::size_t group_end(std::size_t group) const {
+        return group + 1 < groups.size() ? groups[group + 1].first_face : face_count();
+    }
 
     /// For each vertex, 1 if a face uses it, else 0. 1 for all if there are no faces.
     std::vector<std::uint8_t> used_vertices() const;

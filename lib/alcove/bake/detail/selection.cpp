@@ -79,8 +79,7 @@ SelectedFaces select_faces(const Mesh& mesh, const FaceSelection& selection) {
     for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
         if (selection.opaque_only && mesh.groups[g].see_through)
             uses[g].occluding = 0;
-        const std::size_t end = g + 1 < mesh.groups.size() ? mesh.groups[g + 1].first_face : mesh.face_count();
-        for (std::size_t f = mesh.groups[g].first_face; f < end; ++f) {
+        for (std::size_t f = mesh.groups[g].first_face; f < mesh.group_end(g); ++f) {
             selected.baked[f] = uses[g].baked;
             selected.occluding[f] = uses[g].occluding;
         }

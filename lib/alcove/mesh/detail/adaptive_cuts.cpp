@@ -221,7 +221,8 @@ class AdaptiveCuts {
 
     /// Unmarks the shortest edges if cutting all marked ones would exceed the limit. \return whether all stay marked.
     bool keep_within_limit() {
-        // Cutting an edge adds one face per piece at it; the first cut of a polygon also adds its triangulation.
+        // Cutting an edge adds one face for each piece that uses it; the first cut of a polygon also adds its
+        // triangulation.
         std::size_t count = bisection_.face_count(), cuts = 0;
         const std::vector<Piece>& pieces = bisection_.pieces();
         for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {

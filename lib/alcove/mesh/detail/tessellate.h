@@ -62,9 +62,9 @@ struct AdaptiveTessellateOptions {
 
 /// Splits edges and faces until `split` returns false for all their points.
 ///
-/// An edge is split if one of its points needs it. The longest edge of a face is split if a point inside needs it, and
-/// whenever another edge of the face is split, which bounds the angles from below. Each edge and face is tested once.
-/// Everything else is as above.
+/// An edge is split if `split` returns true for one of its points. The longest edge of a face is split if a point
+/// inside needs it, and whenever another edge of the face is split, which bounds the angles from below. Each edge and
+/// face is tested once. Everything else is as above.
 ///
 /// \throw InputError as above. std::invalid_argument if the predicate does not return one value per point. Any
 /// exception of the predicate.

@@ -16,8 +16,8 @@ struct Texture {
     Vec3 at(const Vec2& uv) const;
 };
 
-/// Reads a PNG or EXR. Values are taken as they are, as those of a map: 255 or 65535 in a PNG is 1; an EXR gives its R,
-/// G and B. \throw InputError if the file is neither, LimitError if it does not fit in memory.
+/// Reads a PNG or EXR. Values are used unchanged, without sRGB decoding, as a map holds data: 255 or 65535 in a PNG is
+/// 1; an EXR gives its R, G and B. \throw InputError if the file is neither, LimitError if it does not fit in memory.
 Texture read_texture(const std::filesystem::path& file);
 
 }

@@ -7,11 +7,11 @@
 
 namespace alcove {
 
-/// A warning if at least a hundredth of the surface of a solid has no inside in the field, and at least a hundredth is
-/// thin walls rather than edges: it names the share and the voxel that resolves them. Else an empty string. `field` is
-/// the field of this shape only, in the unit space of `frame`; `options` are the options of its grid. Cost: two
-/// map() calls at each of 4,096 points; if a hundredth of them have no inside, also one RaySurface and two calls of
-/// thin_walls().
+/// A warning if the field has no inside next to at least a hundredth of the surface of a solid, and at least a
+/// hundredth belongs to thin walls rather than edges. It names that share, and a voxel that resolves the walls. Else an
+/// empty string. `field` is the field of this shape only, in the unit space of `frame`; `options` are the options of
+/// its grid. Cost: two map() calls at each of 4,096 points; if a hundredth of them have no inside, also one RaySurface
+/// and two calls of thin_walls().
 std::string missing_walls(const LoadedShape& loaded, const AnyField& field, const Frame& frame,
                           const GridOptions& options);
 

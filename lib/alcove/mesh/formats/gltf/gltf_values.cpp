@@ -264,8 +264,9 @@ class ValueWriter {
         }
     }
 
-    /// Gives primitives that share compressed data, but not the added values, buffer views of their own to the same
-    /// bytes: three.js shows the same values where the buffer views are the same.
+    /// Primitives may share compressed data but not the added values. Gives each a buffer view of its own of the same
+    /// bytes,
+    /// because three.js shows the same values for all primitives that share a buffer view.
     void separate_compressed() {
         const auto view = Json::json_pointer("/extensions/KHR_draco_mesh_compression/bufferView");
         const Json& old = document_.file->root().json()["meshes"];
