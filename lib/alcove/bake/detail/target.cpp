@@ -317,10 +317,25 @@ class TargetBake {
         result_.seconds.pilot += watch.lap();
     }
 
+    /// Whether the field tells where occluders within the radius are.
+    bool resolves_radius() {
+        const Occluders occluders = occluders_.get({.field = true, .rays = false}, GridOptions{}.largest_voxel);
+        return occluders.field().resolution() <= 0.5f * target_.radius;
+    }
+
     void bake_with_fixed_settings() {
-        const MethodChoice choice = choice_of(*task_.method, task_.settings);
+        MethodChoice choice = choice_of(*task_.method, task_.settings);
         Settings settings = task_.settings;
         settings.radius = target_.radius;
+        const bool chose_rays =
+            std::any_of(settings.parameters.begin(), settings.parameters.end(),
+                        [](const auto& parameter) { return parameter.first == parameter_of(SampleKind::rays); });
+        if (choice.method->needs_grid && choice.method->needs_mesh && !chose_rays && !resolves_radius()) {
+            constexpr int rays_alone = 32; // where the field does not help them
+            choice = choose(*choice.method, rays_alone);
+            for (const auto& parameter : choice.settings(target_.radius).parameters)
+                settings.parameters.push_back(parameter);
+        }
         if (has_pilot())
             settings.labels = pilot(pilot_beside(choice.rays())).labels();
         evaluate_with(choice, settings, GridOptions{}.largest_voxel);
