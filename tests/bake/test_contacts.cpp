@@ -311,12 +311,12 @@ TEST(Contacts, SmallRadiiInLargeScenes) {
             EXPECT_GT(*far.rmse, 0.7 * rmse - 0.01) << run.name << ", R/D = " << ratio;
         }
     }
-    // Where the field does not help, guided casts more than its default of 3 rays.
+    // Where the field does not help, and at few vertices, guided casts more than its default of 3 rays.
     Mesh both = part;
     add_part(both, part, 1.0, Vec3d(1e4 * radius, 0, 0));
     const Baked truth = bake(part, {.radius = Length(radius), .method = "exact", .parameters = {{"rays", 1024}}});
     const Baked guided = bake(both, {.radius = Length(radius), .method = "guided"});
-    EXPECT_EQ(guided.samples, 32);
+    EXPECT_GE(guided.samples, 32);
     double squares = 0.0;
     for (std::size_t v = 0; v < part.vertex_count(); ++v)
         squares += std::pow(truth.ao()[v] - guided.ao()[v], 2);

@@ -61,8 +61,9 @@ struct BakeOptions {
     /// Any other RMSE to meet, in [0.001, 1), instead of `quality`.
     std::optional<double> error{};
     /// A method of the catalog; empty: chosen. Without `error` it runs with its defaults and `parameters`; with
-    /// `error`, its rays or samples are chosen. By default, guided casts 32 rays where the voxel is larger than half the
-    /// radius, because the field does not help there.
+    /// `error`, its rays or samples are chosen. Where guided casts few rays by default, it casts up
+    /// to 64 at few vertices, which have few neighbours to share them with, and 32 where the voxel is larger than half
+    /// the radius, because the field does not help there.
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};
@@ -126,8 +127,8 @@ struct Baked {
 
     std::string method;         ///< with its rays or samples: "guided:3"
     std::optional<int> samples; ///< rays or samples per vertex or point; empty if the method has neither
-    /// The share of the vertices or points where the method was evaluated. Where these are much denser than the detail of
-    /// the ao, the others are interpolated; only if there is an RMSE to meet.
+    /// The share of the vertices or points where the method was evaluated. Where these are much denser than the detail
+    /// of the ao, the others are interpolated; only if there is an RMSE to meet.
     double evaluated = 1.0;
     std::string reason;           ///< why exact was planned despite Via::grid; empty otherwise
     std::optional<double> rmse;   ///< of ao, estimated by the pilot; empty without a pilot

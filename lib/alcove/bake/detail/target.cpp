@@ -323,6 +323,15 @@ class TargetBake {
         return occluders.field().resolution() <= 0.5f * target_.radius;
     }
 
+    /// The rays that a surfel needs if it has few others to share rays with, or if the field does not help.
+    int rays_for_few_or_unresolved() {
+        constexpr std::size_t shared = 1 << 17; // rays of all surfels, which take some hundredths of a second
+        constexpr std::size_t most = 64;
+        constexpr int unresolved = 32;
+        const auto rays = static_cast<int>(std::min(shared / std::max<std::size_t>(target_.surfels.size(), 1), most));
+        return resolves_radius() ? rays : std::max(rays, unresolved);
+    }
+
     void bake_with_fixed_settings() {
         MethodChoice choice = choice_of(*task_.method, task_.settings);
         Settings settings = task_.settings;
@@ -330,11 +339,9 @@ class TargetBake {
         const bool chose_rays =
             std::any_of(settings.parameters.begin(), settings.parameters.end(),
                         [](const auto& parameter) { return parameter.first == parameter_of(SampleKind::rays); });
-        if (choice.method->needs_grid && choice.method->needs_mesh && !chose_rays && !resolves_radius()) {
-            constexpr int rays_alone = 32; // where the field does not help them
-            choice = choose(*choice.method, rays_alone);
-            for (const auto& parameter : choice.settings(target_.radius).parameters)
-                settings.parameters.push_back(parameter);
+        if (choice.method->needs_grid && choice.method->needs_mesh && !chose_rays) {
+            choice = choose(*choice.method, std::max(choice.samples, rays_for_few_or_unresolved()));
+            settings.parameters.emplace_back(parameter_of(SampleKind::rays), choice.samples);
         }
         if (has_pilot())
             settings.labels = pilot(pilot_beside(choice.rays())).labels();
