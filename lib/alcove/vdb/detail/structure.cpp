@@ -152,7 +152,8 @@ void check_values(ForwardReader& file, std::size_t count, std::size_t active, st
     }
     // 0 or negative if the values are not compressed.
     const auto declared = file.number<std::int64_t>();
-    const auto size = static_cast<std::uint64_t>(declared <= 0 ? -declared : declared);
+    // Negated as unsigned, because the least number has no negative.
+    const auto size = declared <= 0 ? 0 - static_cast<std::uint64_t>(declared) : static_cast<std::uint64_t>(declared);
     file.check(size);
     if (declared <= 0) {
         if (size != stored)
