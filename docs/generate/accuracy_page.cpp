@@ -33,8 +33,19 @@ namespace fs = std::filesystem;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr std::array radii{0.02f, 0.1f, 0.5f, infinite};
-constexpr std::array meshes{"bunny00.off",    "camel.off",         "ChineseDragon-10kv.off",
-                            "diplodocus.off", "fandisk_large.off", "refined_elephant.off"};
+// Scans and sculptures, then parts.
+constexpr std::array meshes{"bunny00.off",
+                            "camel.off",
+                            "ChineseDragon-10kv.off",
+                            "diplodocus.off",
+                            "head.off",
+                            "refined_elephant.off",
+                            "anchor_dense.off",
+                            "b9_mesh.off",
+                            "couplingdown.off",
+                            "fandisk_large.off",
+                            "mech-holes-shark.off",
+                            "rotor_small.off"};
 constexpr std::array planned_radii{0.05f, 0.2f};
 constexpr std::array planned_errors{0.1, 0.05, 0.03, 0.02, 0.01};
 constexpr std::array planned_meshes{
