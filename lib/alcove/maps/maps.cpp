@@ -6,7 +6,7 @@
 #include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
-#include "alcove/maps/detail/padding.h"
+#include "alcove/maps/detail/open_tile.h"
 #include "alcove/maps/detail/rasterize.h"
 #include "alcove/maps/detail/uv_faces.h"
 #include "alcove/maps/detail/uv_layout.h"
@@ -47,64 +47,10 @@ Mesh united(std::span<const Mesh> meshes) {
     return all;
 }
 
-/// A tile that is being baked.
-struct OpenTile {
-    const UvFaces* faces = nullptr;
-    UvTile uvs{};
-    TexelOwners owners;
-    MapTile map;
-    std::vector<std::uint16_t> counts{}; ///< samples per texel
-    std::vector<std::uint8_t> wanted{};  ///< 1 for texels of a face
-    bool is_thinned = false;             ///< texels between others are interpolated, see texels_around()
-    int sampled_rows = 0;                ///< whose samples have been taken, from the top
-    int interpolated_rows = 0;           ///< whose texels between others have been interpolated
-};
-
-/// The texels from which one is interpolated.
-struct TexelsAround {
-    std::array<std::size_t, 4> texels;
-    std::size_t count = 0; ///< 0 if it is not interpolated
-};
-
-/// A texel in an odd row or column is interpolated from its two or four neighbours in even ones, if they are in its
-/// chart.
-TexelsAround texels_around(const OpenTile& tile, std::size_t texel) {
-    const std::size_t width = static_cast<std::size_t>(tile.uvs.width), x = texel % width, y = texel / width;
-    const std::size_t across = x % 2, down = (y % 2) * width;
-    if ((across == 0 && down == 0) || (across > 0 && x + 1 == width) ||
-        (down > 0 && y + 1 == static_cast<std::size_t>(tile.uvs.height)))
-        return {};
-    TexelsAround around{{texel - across - down, texel + across + down, texel + across - down, texel - across + down},
-                        across > 0 && down > 0 ? 4u : 2u};
-    const auto chart = [&](std::size_t i) {
-        const std::uint32_t triangle = tile.owners.triangles[i];
-        return triangle == no_triangle ? no_triangle : tile.faces->chart(triangle);
-    };
-    const std::uint32_t own = chart(texel);
-    if (std::any_of(around.texels.begin(), around.texels.begin() + static_cast<std::ptrdiff_t>(around.count),
-                    [&](std::size_t i) { return chart(i) != own; }))
-        return {};
-    return around;
-}
-
 /// A sample of a texel.
 struct Sample {
     std::uint32_t tile, index; ///< the index of the tile, and of the sample in it
 };
-
-/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Passes the
-/// number of rows from the top that have been visited completely.
-template <class Visit>
-void each_texel_in_blocks(const UvTile& tile, const Visit& visit) {
-    constexpr int side = 64;
-    for (int top = 0; top < tile.height; top += side)
-        for (int left = 0; left < tile.width; left += side)
-            for (int y = top; y < std::min(top + side, tile.height); ++y)
-                for (int x = left; x < std::min(left + side, tile.width); ++x)
-                    visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
-                              static_cast<std::size_t>(x),
-                          top);
-}
 
 /// Bakes the samples of all tiles in batches.
 class MapBake {
@@ -272,7 +218,9 @@ class MapBake {
     /// Finishes the tiles before the one of that index.
     void finish_tiles(std::uint32_t end) {
         for (; finished_ < end; ++finished_) {
-            finish(tiles_[finished_]);
+            const TexelCounts counts = finish(tiles_[finished_], options_, has_tangents_);
+            maps_.texels += counts.covered;
+            maps_.misses += counts.missed;
             maps_.tiles.push_back(std::move(tiles_[finished_].map));
             tiles_[finished_] = OpenTile{};
         }
@@ -325,44 +273,13 @@ class MapBake {
         const std::size_t sampled = samples_.size();
         for (auto number = static_cast<std::uint32_t>(finished_); number < tiles_.size(); ++number)
             if (tiles_[number].is_thinned)
-                between += interpolate(number);
+                for (const std::uint32_t texel : interpolate_between(tiles_[number], tolerance_, between))
+                    samples_.push_back({number, texel});
         const SurfacePoints all = points_of_samples();
         std::vector<SurfacePoint> points;
         for (std::size_t i = sampled; i < samples_.size(); ++i)
             points.push_back(all.point(i));
         return points;
-    }
-
-    /// The same for a tile, in the rows whose neighbours have values. \return the number of interpolated texels
-    std::size_t interpolate(std::uint32_t number) {
-        OpenTile& tile = tiles_[number];
-        std::vector<float>& values = tile.map.layers.front().values;
-        const int end = tile.sampled_rows == tile.uvs.height ? tile.uvs.height : std::max(tile.sampled_rows - 1, 0);
-        std::size_t count = 0;
-        for (; tile.interpolated_rows < end; ++tile.interpolated_rows)
-            for (std::size_t x = 0; x < width_; ++x) {
-                const std::size_t texel = static_cast<std::size_t>(tile.interpolated_rows) * width_ + x;
-                if (!tile.wanted[texel])
-                    continue;
-                const TexelsAround around = texels_around(tile, texel);
-                if (around.count == 0)
-                    continue;
-                float sum = 0.0f, least = 1.0f, most = 0.0f;
-                for (std::size_t k = 0; k < around.count; ++k) {
-                    const float value = values[around.texels[k]];
-                    sum += value;
-                    least = std::min(least, value);
-                    most = std::max(most, value);
-                }
-                if (most - least > tolerance_) {
-                    samples_.push_back({number, static_cast<std::uint32_t>(texel)});
-                    continue;
-                }
-                values[texel] = sum / static_cast<float>(around.count);
-                tile.counts[texel] = 1;
-                ++count;
-            }
-        return count;
     }
 
     void add(MapLayer& layer, std::size_t at, float value) const {
@@ -473,66 +390,6 @@ class MapBake {
                     all.warnings.push_back(std::move(warning));
         }
         maps_.baked.evaluated = evaluated_ / points_;
-    }
-
-    /// Turns sums into means, and fills the margin and misses.
-    void finish(OpenTile& tile) {
-        MapTile& map = tile.map;
-        const std::vector<std::uint16_t>& counts = tile.counts;
-        const std::vector<std::uint8_t>& wanted = tile.wanted;
-        std::vector<std::uint8_t> covered(texels_);
-        std::size_t covered_count = 0, misses = 0;
-        for (std::size_t i = 0; i < texels_; ++i) {
-            covered[i] = counts[i] > 0;
-            covered_count += covered[i];
-            misses += wanted[i] & (counts[i] == 0);
-        }
-        maps_.texels += covered_count;
-        maps_.misses += misses;
-        const int larger = std::max(options_.width, options_.height),
-                  margin = std::min(options_.margin.value_or(std::max(larger / 128, 1)), larger);
-        std::vector<std::uint32_t> nearest = nearest_covered(covered, options_.width, options_.height, margin);
-        if (misses > 0) { // their neighbours may be further than the margin
-            const auto any = nearest_covered(covered, options_.width, options_.height, larger);
-            for (std::size_t i = 0; i < texels_; ++i)
-                nearest[i] = wanted[i] ? any[i] : nearest[i];
-        }
-        map.coverage.resize(texels_);
-        for (std::size_t i = 0; i < texels_; ++i)
-            map.coverage[i] = covered[i]        ? Coverage::face
-                              : nearest[i] == i ? Coverage::background
-                              : wanted[i]       ? Coverage::miss
-                                                : Coverage::margin;
-        for (MapLayer& layer : map.layers)
-            finish(layer, map.coverage, counts, nearest);
-    }
-
-    void finish(MapLayer& layer, const std::vector<Coverage>& coverage, const std::vector<std::uint16_t>& counts,
-                const std::vector<std::uint32_t>& nearest) const {
-        const MapAttributeInfo attribute = info(layer.attribute);
-        const std::size_t components = attribute.components;
-        const bool are_sums = options_.subsamples > 1 && layer.attribute != MapAttribute::object;
-        for (std::size_t i = 0; i < texels_ && (are_sums || attribute.is_direction); ++i)
-            if (coverage[i] == Coverage::face)
-                take_mean(std::span(layer.values).subspan(components * i, components), counts[i],
-                          attribute.is_direction);
-        for (std::size_t i = 0; i < texels_; ++i)
-            for (std::size_t c = 0; c < components && coverage[i] != Coverage::face; ++c)
-                layer.values[components * i + c] =
-                    coverage[i] != Coverage::background                 ? layer.values[components * nearest[i] + c]
-                    : attribute.is_direction && c == 2 && has_tangents_ ? 1.0f // the normal
-                                                                        : attribute.missing;
-    }
-
-    static void take_mean(std::span<float> sums, std::uint16_t count, bool is_direction) {
-        float length2 = 0.0f;
-        for (float& sum : sums) {
-            sum /= static_cast<float>(count);
-            length2 += sum * sum;
-        }
-        if (is_direction && length2 > 0.0f)
-            for (float& value : sums)
-                value /= std::sqrt(length2);
     }
 
     void warn() {
