@@ -15,13 +15,13 @@ debootstrap --variant=minbase bookworm "$root" "$mirror" >"$scratch/debootstrap.
     tail -n 5 "$scratch/debootstrap.log" >&2
     exit 1
 }
-mkdir -p "$root/work/build/meshes/meshes"
-cp build-package/*.deb "$root/work"
-cp build/meshes/meshes/armadillo.off "$root/work/build/meshes/meshes"
+mkdir -p "$root/scratch/build/meshes/meshes"
+cp build-package/*.deb "$root/scratch"
+cp build/meshes/meshes/armadillo.off "$root/scratch/build/meshes/meshes"
 
 # Runs a script in the new system.
 inside() {
-    chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 HOME=/root bash -euc "cd /work; $1"
+    chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 HOME=/root bash -euc "cd /scratch; $1"
 }
 inside 'apt-get update -q >apt.log
     apt-get install -qy --no-install-recommends ./*.deb >>apt.log 2>&1 || { tail -n 20 apt.log; exit 1; }'
@@ -42,7 +42,7 @@ cmake --build "$scratch/consumer" >>"$scratch/consumer.log"
 (cd "$scratch" && consumer/consumer)
 
 inside 'apt-get purge -qy alcove alcove-blender libalcove-dev libalcove0.2 python3-alcove >>apt.log 2>&1'
-left=$(find "$root" -xdev -iname '*alcove*' -not -path "$root/work/*")
+left=$(find "$root" -xdev -iname '*alcove*' -not -path "$root/scratch/*")
 [ -z "$left" ] || {
     echo "test_packages.sh: left after the purge: $left" >&2
     exit 1

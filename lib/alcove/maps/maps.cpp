@@ -176,7 +176,7 @@ class MapBake {
             return;
         // With fewer texels, the rest may be too sparse for the interpolation of surfels, which saves more.
         constexpr std::size_t many = 1'000'000, dense = 16; // texels; texels per triangle
-        tile.is_thinned = tolerance_ > 0.0f && covered >= many && covered >= dense * faces.uvs().size();
+        tile.is_sparse = tolerance_ > 0.0f && covered >= many && covered >= dense * faces.uvs().size();
         const auto per_side = static_cast<std::size_t>(options_.subsamples);
         maps_.overlaps += tile.owners.overlaps / (per_side * per_side);
         tile.map.udim = udim;
@@ -186,14 +186,14 @@ class MapBake {
         tile.wanted.assign(texels_, 0);
         tiles_.push_back(std::move(tile));
         const auto number = static_cast<std::uint32_t>(tiles_.size() - 1);
-        if (tiles_[number].is_thinned)
+        if (tiles_[number].is_sparse)
             faces.add_charts();
         each_texel_in_blocks(tiles_[number].uvs, [&](std::size_t i, int complete_rows) {
             OpenTile& open = tiles_[number];
             if (open.owners.triangles[i] == no_triangle)
                 return;
             open.wanted[texel_of(i)] = 1;
-            if (open.is_thinned && texels_around(open, i).count > 0)
+            if (open.is_sparse && texels_around(open, i).count > 0)
                 return;
             if (samples_.size() == batch) {
                 open.sampled_rows = complete_rows;
@@ -272,7 +272,7 @@ class MapBake {
             tiles_[samples_[i].tile].map.layers.front().values[samples_[i].index] = ao[i];
         const std::size_t sampled = samples_.size();
         for (auto number = static_cast<std::uint32_t>(finished_); number < tiles_.size(); ++number)
-            if (tiles_[number].is_thinned)
+            if (tiles_[number].is_sparse)
                 for (const std::uint32_t texel : interpolate_between(tiles_[number], tolerance_, between))
                     samples_.push_back({number, texel});
         const SurfacePoints all = points_of_samples();

@@ -69,9 +69,9 @@ Mesh surface_of(const std::string& file, const std::optional<Length>& weld) {
 }
 
 /// Measures jobs in turn. Keeps what consecutive jobs share, and shows the progress of all.
-class Bench {
+class JobRunner {
   public:
-    Bench(const std::vector<Job>& jobs, const SweepOptions& options) : options_(options) {
+    JobRunner(const std::vector<Job>& jobs, const SweepOptions& options) : options_(options) {
         const Job* last = nullptr;
         for (const Job& job : jobs) {
             all_work_ += work_of(job.choice) + (same_truth(last, job) ? 0.0 : truth_work) +
@@ -133,7 +133,7 @@ void measure_missing(const std::vector<Job>& jobs, const SweepOptions& options, 
     std::vector<Job> missing;
     std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),
                  [&](const Job& job) { return results.find(job.key) == nullptr; });
-    Bench bench(missing, options);
+    JobRunner runner(missing, options);
     const std::string* failed = nullptr;
     for (const Job& job : missing) {
         if (job.mesh == failed)
@@ -145,7 +145,7 @@ void measure_missing(const std::vector<Job>& jobs, const SweepOptions& options, 
             failed = job.mesh;
         };
         try {
-            results.add(job.key, bench.measure(job));
+            results.add(job.key, runner.measure(job));
         } catch (const InputError& error) {
             fail(error);
         } catch (const LimitError& error) {

@@ -21,7 +21,7 @@ struct OpenTile {
     MapTile map;
     std::vector<std::uint16_t> counts{}; ///< samples per texel
     std::vector<std::uint8_t> wanted{};  ///< 1 for texels of a face
-    bool is_thinned = false;             ///< texels between others are interpolated, see texels_around()
+    bool is_sparse = false;              ///< texels between samples are interpolated, see texels_around()
     int sampled_rows = 0;                ///< whose samples have been taken, from the top
     int interpolated_rows = 0;           ///< whose texels between others have been interpolated
 };

@@ -40,7 +40,7 @@ TEST(Charts, AreJoinedByEdgesWithTheSameUvsAndNormals) {
     EXPECT_EQ(charts_of(vertices, uvs, normals), (std::vector<std::uint32_t>{0, 0, 2, 3}));
 }
 
-TEST(Thinning, ARoomHasTheClosedFormOfItsWalls) {
+TEST(SparseTiles, ARoomHasTheClosedFormOfItsWalls) {
     // A floor and a wall at x = 0, much longer than the radius.
     constexpr double radius = 20.0;
     Mesh room;
@@ -66,7 +66,7 @@ TEST(Thinning, ARoomHasTheClosedFormOfItsWalls) {
     }
 }
 
-TEST(Thinning, TexelsWhoseNeighboursDifferAreBaked) {
+TEST(SparseTiles, TexelsWhoseNeighboursDifferAreBaked) {
     // Ao on the floor drops to 0 where it enters the box.
     const Mesh floor = floor_of(10.0);
     Mesh box;
@@ -96,7 +96,7 @@ TEST(Thinning, TexelsWhoseNeighboursDifferAreBaked) {
     EXPECT_LT(wrong, sample.size() / 2000);
 }
 
-TEST(Thinning, ValuesDoNotDependOnThreads) {
+TEST(SparseTiles, ValuesDoNotDependOnThreads) {
     const Mesh floor = floor_of(10.0);
     Mesh ball;
     test::add_part(ball, test::sphere_mesh(3), 1.0, {5.0, 5.0, 1.1});
