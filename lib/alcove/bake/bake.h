@@ -61,9 +61,9 @@ struct BakeOptions {
     /// Any other RMSE to meet, in [0.001, 1), instead of `quality`.
     std::optional<double> error{};
     /// A method of the catalog; empty: chosen. Without `error` it runs with its defaults and `parameters`; with
-    /// `error`, its rays or samples are chosen. Where guided casts few rays by default, it casts up
-    /// to 64 at few vertices, which have few neighbours to share them with, and 32 where the voxel is larger than half
-    /// the radius, because the field does not help there.
+    /// `error`, its rays or samples are chosen. By default, guided casts up to 64 rays at few vertices, which have few
+    /// neighbours to share them with, and 32 where the voxel is larger than half the radius, because the field does not
+    /// help there.
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};

@@ -132,7 +132,7 @@ std::string name_of_material(const GltfDocument* document, const std::optional<s
     return in_quotes(document->file->root()["materials"][*material].text_or("name", fmt::format("{}", *material)));
 }
 
-/// That materials got textures of their own, although ao was to be packed.
+/// A warning that materials got textures of their own, although ao was to be packed.
 std::string not_packed(const std::vector<std::string>& materials) {
     constexpr std::size_t most = 5;
     const std::size_t named = std::min(materials.size(), most);

@@ -47,7 +47,7 @@ void limit_scans(j_common_ptr jpeg) {
     }
 }
 
-// These have no objects that a jump out of libjpeg would have to destroy, and return false if it failed.
+// These hold no objects whose destructors a jump out of libjpeg would skip. They return false if libjpeg fails.
 
 bool read_header(Decoder& decoder, std::string_view bytes, DecodedImage& image) {
     jpeg_decompress_struct& jpeg = decoder.jpeg;

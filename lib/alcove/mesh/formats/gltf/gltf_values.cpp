@@ -264,8 +264,7 @@ class ValueWriter {
         }
     }
 
-    /// Primitives may share compressed data but not the added values. Gives each a buffer view of its own of the same
-    /// bytes,
+    /// Primitives may share compressed data but not the added values. Gives each its own buffer view of the same bytes,
     /// because three.js shows the same values for all primitives that share a buffer view.
     void separate_compressed() {
         const auto view = Json::json_pointer("/extensions/KHR_draco_mesh_compression/bufferView");
