@@ -34,6 +34,8 @@ void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>&
 }
 
 void warn_of_hard_edges(const Mesh& mesh, std::vector<std::string>& warnings) {
+    if (mesh.corner_normals.empty())
+        return;
     std::vector<Vec3> first(mesh.vertex_count(), Vec3(0.0f));
     std::vector<std::uint8_t> has_several(mesh.vertex_count(), 0);
     for (std::size_t c = 0; c < mesh.corner_normals.size(); ++c) {
