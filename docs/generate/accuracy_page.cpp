@@ -57,8 +57,8 @@ constexpr std::string_view head = R"(# Error and time
 
 Written by `tools/docs.sh accuracy`, on one thread: do not edit. Neither the coefficients of `calibrated` nor the table
 of the planner were fitted to these meshes. The RMSE is against 1,024 exact rays per vertex, at up to 20,000 vertices.
-Seconds are CPU time of a single pass, and include the grid and the BVH for every method that needs them: trust only
-their ratios. Lengths are fractions of the diagonal.
+Times are CPU seconds of a single pass. They include the grid and the BVH for every method that needs them. Trust only
+the ratios of times. Lengths are fractions of the diagonal.
 
 )";
 
@@ -119,9 +119,9 @@ std::string dense_section(const fs::path& file) {
     }
     return fmt::format(R"(## A dense mesh
 
-{}, with each triangle split in four, twice, and the vertices then moved along their normals by noise: one mean
-edge high in waves of 16 edges, and half as high in waves of 8. It has {} vertices; the radius is 10 %. The
-standard deviation of the reference is {:.4f}.
+The mesh is {}, with each triangle split into four, twice. Its vertices are then moved along their normals by
+noise: one mean edge high in waves of 16 edges, plus half as high in waves of 8. The mesh has {} vertices; the
+radius is 10 %. The standard deviation of the reference is {:.4f}.
 
 | method | RMSE | bias | grid, s | BVH, s | occlusion, s |
 | --- | --- | --- | --- | --- | --- |
@@ -310,13 +310,13 @@ std::string planning_section(const fs::path& folder) {
     }
     return fmt::format(R"(## Plans
 
-`alcove bake --error E` on twelve meshes at two radii, {} cases in all:
+`alcove bake --error E` was run on twelve meshes at two radii and five values of E, {} cases in all:
 
-- The true RMSE is at most 1.15 E in {}.
-- The estimate of the pilot is within 30 % of the true RMSE in {}.
-- The predicted cost does not fall in {} of {} steps to a smaller E.
+- In {} cases, the true RMSE is at most 1.15 E.
+- In {} cases, the estimate of the pilot is within 30 % of the true RMSE.
+- In {} of {} steps to a smaller E, the predicted cost does not fall.
 - In {} cases, at least one of 38 measured choices meets E. The plan takes at most 1.5 times as long as the cheapest of
-  these in {} cases; counting earlier bakes whose error was too large, in {}.
+  these in {} cases. If earlier bakes whose error was too large are counted as well, it does so in {} cases.
 
 | mesh | radius | E | plan | bakes | RMSE | estimated | s | cheapest | s | ratio |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |

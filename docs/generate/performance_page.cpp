@@ -27,10 +27,11 @@ namespace fs = std::filesystem;
 constexpr std::string_view head = R"(# Where the time goes
 
 Written by `tools/docs.sh performance`, on one thread: do not edit. Times are CPU seconds. Figures that are compared
-with each other were measured in turns, five times, and are medians. The times of phases are wall-clock times of the
-median of five bakes, or of three in the last section. The machine is shared and its clock rate drifts: trust only
-ratios. Lengths are fractions of the diagonal. The meshes are armadillo.off with each triangle split in four as often as
-needed. Where errors are measured, the vertices are also moved along their normals by noise that is one mean edge high.
+with each other are medians of five measurements, taken in turns. The times of phases are wall-clock times of the median
+of five bakes (of three in the last section). The machine is shared and its clock rate drifts: trust only ratios.
+Lengths are fractions of the diagonal. The meshes are armadillo.off and versions of it with each triangle split into
+four, up to three times. Where errors are measured, the vertices are also moved along their normals by noise that is one
+mean edge high.
 
 )";
 
@@ -65,17 +66,19 @@ std::string phases_table(const std::vector<Bake>& bakes) {
 
 constexpr std::string_view file_to_file_words = R"(## From file to file
 
-`alcove bake` on binary PLY, at a radius of 10 %, compared with a baker that uses Embree alone (the same reader and
-writer, low build quality, streams of rays, vertices along a Morton curve). Each uses settings that meet an RMSE of E:
-ours are the cheapest of a few measured choices, without the pilot; Embree alone gets as many rays as it needs. The
-column `--error E` is the time of a bake that chooses its settings itself and measures its error.
+The table compares `alcove bake` on binary PLY, at a radius of 10 %, with a baker that uses Embree alone. That baker has
+the same reader and writer, builds its BVH with low quality, traces streams of rays, and visits vertices along a Morton
+curve. Each uses settings that meet an RMSE of E: ours are the cheapest of a few measured choices, without the pilot;
+Embree alone gets as many rays as it needs. The column `--error E` gives the time of a bake that chooses its settings
+itself and measures its error.
 
 | vertices | E | ours | RMSE | s | `--error E`, s | Embree, rays | RMSE | s | Embree : ours |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 {}
-The phases of our bakes of the last mesh. The budget is for the first of these bakes: the goal is a quarter of the time
-of Embree alone. Most of the start is spent in the dynamic linker, on the symbols of OpenVDB. Where dozens of triangles
-share a voxel, the grid is built from clustered vertices, as fine as the voxels resolve.
+This table shows the phases of our bakes of the largest mesh. The budget applies to the first of these bakes; the goal
+is a quarter of the time of Embree alone. Most of the start is spent in the dynamic linker, on the symbols of OpenVDB.
+Where dozens of triangles share a voxel, the grid is built from clustered vertices, which are as dense as the voxels can
+resolve.
 
 {}
 )";
@@ -137,9 +140,9 @@ std::string voxelizing_section() {
     }
     return fmt::format(R"(## Voxelizing
 
-From an indexed mesh to an OpenVDB level set with a band of 5 voxels on both sides, compared with
-`openvdb::tools::meshToVolume` with its default flags. The last column compares all levels for a radius of 50 % with the
-finest alone.
+The table gives the time to convert an indexed mesh to an OpenVDB level set with a band of 5 voxels on both sides,
+compared with `openvdb::tools::meshToVolume` with its default flags. The last column gives the time for all levels at a
+radius of 50 %, relative to that for the finest level alone.
 
 | triangles | voxels along D | ms | meshToVolume, ms | ns per triangle | ns per voxel | meshToVolume : ours | all levels : finest |
 | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -188,8 +191,8 @@ std::string scaling_section(const fs::path& scratch, const fs::path& images) {
     write_text(images / "triangles.svg", svg(chart) + "\n");
     return fmt::format(R"(## Scaling
 
-Milliseconds of calibrated:13. The voxel is 1/256 and the radius 10 %, unless the first column says otherwise. There are
-half as many vertices as triangles.
+The tables give the milliseconds of each phase with calibrated:13. The voxel is 1/256 and the radius 10 %, unless the
+first column says otherwise. There are half as many vertices as triangles.
 
 {}![seconds by triangles](images/performance/triangles.svg)
 
@@ -209,8 +212,8 @@ std::string twelve_million_section(const fs::path& folder, const fs::path& scrat
     const Run bake = run({ALCOVE_PROGRAM, "bake", file, "-o", baked, "--threads", "1", "--error", "0.05", "--json"});
     return fmt::format(R"(## Twelve million triangles
 
-diplodocus.off, with each triangle split in four, four times over, and moved by noise, with `--error 0.05`:
-{}.
+This bake has `--error 0.05`. Its mesh is diplodocus.off, with each triangle split into four, four times over, and its
+vertices moved by noise. It took {}.
 
 )",
                        outcome_of(bake));

@@ -88,15 +88,15 @@ std::string comparison(const std::filesystem::path& data, const std::filesystem:
     Image shown = loaded.draw(Pass::ao);
     std::string table = "| method | RMSE | |\n| --- | --- | --- |\n";
     for (const auto& [method, words] :
-         {std::pair("traced", "16 rays per sample, four samples per pixel: the error is their noise."),
+         {std::pair("traced", "16 rays per sample and four samples per pixel. The error is the noise of these rays."),
           std::pair("classic", "Too dark under the plate and between the legs, where the five probes along "
-                               "the normal soon come near a surface; black around the foot of the ball, "
-                               "except on the seam, whose normals lead the probes outward."),
+                               "the normal soon come near a surface. Black around the foot of the ball, "
+                               "except on the seam, where the normals lead the probes outward."),
           std::pair("hemisphere", "A tenth too dark in the open, because of its formula, and soft."),
           std::pair("fibonacci", "Grey in the open (two thirds, because of its formula), and darker only in creases."),
           std::pair("screen_space",
                     "Right where the camera sees the occluder. Nothing is dark below the plate, whose underside "
-                    "the camera does not see, and places behind outlines are dark that should not be."),
+                    "the camera does not see, and some areas behind outlines are wrongly dark."),
           std::pair("march_steps", "Not occlusion: it shows outlines, where rays pass close to a surface, "
                                    "and the distance to the ground.")}) {
         shown.ao = loaded.ao(method);
@@ -127,23 +127,23 @@ void write_page(const std::filesystem::path&, const std::filesystem::path& docs)
     write_gallery(data, images);
     write_text(docs / "rendering.md", fmt::format(R"(# Rendering
 
-Written by `tools/docs.sh rendering`; [scenes.md](scenes.md) is the reference of scene files and passes.
+Written by `tools/docs.sh rendering`; [scenes.md](scenes.md) is the reference for scene files and passes.
 
 ## Passes
 
-`data/bracket.toml`, each pass as its PNG.
+These are the passes of `data/bracket.toml`, each as a PNG.
 
 {}
 ## One view by several methods
 
-The occlusion of `data/pedestal.toml`, at a radius of 15 % of its diagonal and default settings. The RMSE is over the
-pixels that the scene covers, against `traced` with 1,024 rays per pixel.
+The images show the occlusion of `data/pedestal.toml`, at a radius of 15 % of its diagonal and with default settings.
+The RMSE is over the pixels that the scene covers, against `traced` with 1,024 rays per pixel.
 
 {}
 ## The effect of a blur on `screen_space`
 
-RMSE against `traced` with 256 rays per pixel. A Gaussian blur removes the noise of the samples, but spreads occlusion
-across edges; the bilateral blur stops at edges.
+The table gives the RMSE against `traced` with 256 rays per pixel. A Gaussian blur removes the noise of the samples,
+but spreads occlusion across edges; the bilateral blur stops at edges.
 
 {})",
                                                   passes_table(), comparison(data, images), blurs(data)));
