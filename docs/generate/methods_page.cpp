@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cctype>
 #include <filesystem>
 #include <iostream>
 
@@ -133,10 +134,12 @@ std::string cost_of(const Method& method) {
 }
 
 std::string section_of(const Method& method) {
+    std::string summary(method.summary);
+    summary[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(summary[0])));
     return fmt::format("## {0}\n\n{1}.\n\n    {2}\n\nSource: {3}. Cost: {4}. Parameters: {5}."
                        "\n\n![{0}](images/methods/{0}.png)\n\nGood: {6}. Bad: {7}.\n\n{8}\n\n",
-                       method.name, method.summary, method.formula, method.source, cost_of(method),
-                       parameters_of(method), method.good, method.bad, image_remarks.at(method.name));
+                       method.name, summary, method.formula, method.source, cost_of(method), parameters_of(method),
+                       method.good, method.bad, image_remarks.at(method.name));
 }
 
 void write_page(const std::filesystem::path& meshes, const std::filesystem::path& docs) {

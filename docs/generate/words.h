@@ -8,24 +8,24 @@ namespace alcove::docs {
 
 inline constexpr std::string_view page_head = R"(# The methods
 
-Written by `tools/docs.sh`; `alcove methods` prints the same facts. *ao* is visibility: 1 is open, 0 is fully occluded. p is a
-point on the surface, n its unit normal, d(x) = `map(x)`. The constants of a formula are those of its reference
-document, at the radius R₀ of that document. At any other radius R, a method computes what it would compute at R₀ on the
-scene scaled by R₀/R, so only the ratio of R to the size of the scene matters.
+Written by `tools/docs.sh methods`; `alcove methods` prints the same facts. *ao* is visibility: 1 is open, 0 is fully
+occluded. In the formulas, p is a point on the surface, n its unit normal, and d(x) = `map(x)`. The constants of a
+formula are those of its reference document, at the radius R₀ of that document. At any other radius R, a method computes
+what it would compute at R₀ on the scene scaled by R₀/R, so only the ratio of R to the size of the scene matters.
 
-Each row of images shows, from left to right, the reference scene, which is that of "SDF Ambient Occlusion — Detailed
-Reference", at the radius of the method's own document, and two scans, ChineseDragon-10kv.off (a lion) and
+Each row of images shows three scenes. On the left is the reference scene of "SDF Ambient Occlusion — Detailed
+Reference", at the radius of the method's own document. The other two are scans, ChineseDragon-10kv.off (a lion) and
 armadillo.off, baked at their vertices with a radius of 20 % of their diagonal and default settings. Black is 0, white
-is 1. These are the images by exact rays (of the reference scene: by `traced`, at a radius of 1):
+is 1. These are the images by exact rays (by `traced` at a radius of 1 for the reference scene):
 
 ![exact rays](images/methods/reference.png)
 
 )";
 
 inline constexpr std::string_view table_head =
-    R"(RMSE against cosine-weighted rays: 256 per pixel of the reference scene (sphere-traced, because it has no mesh) and
-1,024 per vertex of the scans. In parentheses are the bias and, after the semicolon, the standard deviation of the
-reference values, which is the RMSE of the best constant guess:
+    R"(The table gives the RMSE against cosine-weighted rays: 256 per pixel of the reference scene (sphere-traced,
+because it has no mesh) and 1,024 per vertex of the scans. In parentheses are the bias and, after the semicolon, the
+standard deviation of the reference values, which is the RMSE of the best constant guess:
 
 | method | reference scene | ChineseDragon-10kv | armadillo | cost |
 | --- | --- | --- | --- | --- |
@@ -35,7 +35,7 @@ inline const std::map<std::string_view, std::string_view> image_remarks{
     {"classic", "The lion's mouth and the armadillo's neck are far too dark: a probe straight above a point comes "
                 "near a wall long before that wall hides much of the sky. On open ground with an occluder to one "
                 "side, as around the ring, the shade is in the right place, but fades at the wrong rate. The bent "
-                "normals, which are our own addition, lean the right way, but too little deep in corners."},
+                "normals, which are our own addition, lean the right way, but not far enough deep in corners."},
     {"exponential", "Nearly white: the weights halve from the first probe on, and the first probe, a fifth of the "
                     "radius up, is the one that a wide valley does not occlude. In the reference scene, the shade "
                     "of the ring ends at a sharp edge, because no probe sees further."},
@@ -59,7 +59,7 @@ inline const std::map<std::string_view, std::string_view> image_remarks{
                           "fixed in world axes; another seed gives other facets."},
     {"fibonacci", "The whole image is grey, 0.62 to 0.73 in the open: above a plane, the sum of 3 d is too small, and "
                   "the factor 6 of the formula does not make up for it. The contrast is low, because probes end at a "
-                  "tenth of the scene's unit. To get a mask, divide by the open value."},
+                  "tenth of the scene's unit. To get a mask, divide by the value on open ground."},
     {"traced", "The remaining grain comes from 64 rays; more rays smooth it. The scans are a little too bright in "
                "folds finer than a voxel, because the grid does not contain them and rays start a tenth of a voxel "
                "off the surface. Compared with exact rays at the default radius of 10 %: bear.off and elephant.off "
@@ -67,14 +67,14 @@ inline const std::map<std::string_view, std::string_view> image_remarks{
                "mouth of lion.off and the creases of hand.off are too light; camel.off has black spots between its "
                "knees and cow.off a dark slot behind its tail, where the opposite surface is nearer than two voxels. "
                "Halving the voxel halves all of these errors. ChineseDragon-10kv.off differs most, with an RMSE of "
-               "0.06, and there the exact rays are at fault: they start below a neighbouring face where the mesh "
-               "folds over, and leave black specks."},
-    {"calibrated", "As trained, without a fit to these scenes. Right on average and wrong in places: between ball and "
-                   "ring it shows faint stripes."},
+               "0.06. There the exact rays are at fault: where the mesh folds over, they start below a neighbouring "
+               "face and leave black specks."},
+    {"calibrated", "The network is used as trained, without a fit to these scenes. It is right on average and wrong in "
+                   "places: between ball and ring, it shows faint stripes."},
     {"guided", "Three rays per vertex, and no grain: a regression on the probes, fitted to the rays of the mesh "
                "itself, predicts the value, and vertices with similar probes share the residuals. Single dark "
                "vertices, as in the lion's mane, are pulled toward that prediction until there are more rays."},
-    {"exact", "Nothing but grain. The specks on the lion are real: they are vertices in folds, right in front of a "
+    {"exact", "Nothing but grain. The specks on the lion are correct: they are vertices in folds, right in front of a "
               "wall."},
 };
 
