@@ -73,13 +73,14 @@ std::string columns(const Errors& errors) {
 std::string report(const std::vector<MeasuredFile>& files) {
     std::string text = R"(# Error of the calibrated estimator
 
-The RMSE against 1,024 exact rays, at up to 1,000 vertices of each mesh, on the grids that a bake uses by default: of
-the networks as they were trained, and with the last layer fitted to the mesh, as a bake with a pilot does. Meshes of
-fewer than 200 vertices are not fitted. Half of the meshes of the archive, chosen by name, were held out from training.
-The networks were trained on the other half and on 640 random scenes (fit/scenes.h). The errors that matter are those on
-held-out meshes, and on generated parts, which come from another generator than the scenes. The standard deviation of
-the reference is the RMSE of the best constant. All meshes have the same weight. To train the networks and write this
-page:
+This page gives the RMSE of `calibrated` against 1,024 exact rays, at up to 1,000 vertices of each mesh, on the grids
+that a bake uses by default. Columns such as *13 probes* are for the networks as they were trained. Columns such as
+*13, fitted* are for networks whose last layer was fitted to the mesh, as in a bake with a pilot. Meshes of fewer than
+200 vertices are not fitted. Half of the meshes of the archive, chosen by name, were held out from training. The
+networks were trained on the other half and on 640 random scenes (fit/scenes.h). The errors that matter are those on the
+held-out meshes and on the generated parts, which come from a different generator than the scenes. The standard
+deviation of the reference is the RMSE of the best constant guess. All meshes have the same weight. To train the
+networks and write this page:
 
     fit/fit_calibrated.sh
 
@@ -113,9 +114,9 @@ page:
                             std::isinf(radii[r]) ? "inf" : fmt::format("{:.3g} %", 100.0 * radii[r]), columns(mean));
         }
     text += fmt::format("\n## Each mesh, radius {:.3g} %\n\n", 100.0 * radii[reported_radius]);
-    text +=
-        "| mesh | | standard deviation of the reference | 13 probes | 38 probes | 63 probes | 13, fitted | 38, fitted "
-        "| 63, fitted |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    text += "| mesh | group | standard deviation of the reference | 13 probes | 38 probes | 63 probes | 13, fitted | "
+            "38, fitted "
+            "| 63, fitted |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (const MeasuredFile& file : files)
         text += fmt::format("| {} | {} |{}\n", file.name, names[static_cast<std::size_t>(file.group)],
                             columns(file.at[reported_radius]));

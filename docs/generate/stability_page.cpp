@@ -25,8 +25,8 @@ using extremes::Result;
 
 constexpr std::string_view head = R"(# Stability
 
-Written by `tools/docs.sh stability`, from the table that the tests check too (`tests/extremes`; `ctest -R Extremes`).
-The second column is what each case must meet. Figures are differences of ao, which is in [0, 1]: the largest at any
+Written by `tools/docs.sh stability`, from the same table that the tests check (`tests/extremes`; `ctest -R Extremes`).
+The second column states what each case must meet. Figures are differences of ao, which is in [0, 1]: the largest at any
 vertex, or the RMSE over all vertices, as the case says. The radius is 10 % of the diagonal D, the voxel D/256, and all
 other settings have their defaults, unless the case says otherwise. The *bumpy* surface is closed, with 4,098 vertices,
 bumps and hollows.
@@ -34,17 +34,18 @@ bumps and hollows.
 )";
 
 const std::map<std::string_view, std::string_view> words{
-    {"scale", "The bumpy surface, larger or smaller, read from files with all digits of a double. Grids are "
-              "built in units of D, so only rounding differs."},
-    {"offset", "The bumpy surface far from the origin. The last column shows what the file itself loses there."},
+    {"scale", "The bumpy surface at other scales, read from files with all digits of a double. Grids are built in "
+              "units of D, so only rounding differs."},
+    {"offset",
+     "The bumpy surface far from the origin. The last column shows the precision that the file itself loses there."},
     {"shape", "Flat, long and sharp shapes, whose ao is known."},
     {"damage", "The bumpy surface with defects."},
     {"thin", "Walls, gaps and slots; their sizes are in voxels of D/256. The grid resolves gaps between "
              "solids, however narrow. It may miss walls thinner than a voxel and a half, and rays then "
-             "pass through them. In that case a warning names a voxel that resolves the walls, and the "
-             "figure is the error at that voxel. If that voxel does not fit into memory, the warning names "
-             "only `guided`, whose rays hit the triangles. The image shows fins of half a voxel by "
-             "`traced`, by `traced` at the voxel of the warning, and by `guided`.\n\n"
+             "pass through them. In that case, a warning names a voxel size that resolves the walls, and the "
+             "figure is the error at that size. If a grid of that size does not fit into memory, the warning names "
+             "only `guided`, whose rays hit the triangles. The image shows fins half a voxel thick, baked by "
+             "`traced`, by `traced` with the voxel size from the warning, and by `guided`.\n\n"
              "![fins of half a voxel](images/stability/fins.png)"},
     {"setting", "Radii, voxels and numbers of rays, from one extreme to the other, on the bumpy surface."},
 };

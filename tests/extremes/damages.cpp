@@ -123,11 +123,11 @@ std::vector<Extreme> damages() {
     add("faces with a corner at 1e38", "a one-line error: in a box that large, no face has an area",
         [] { return refused<InputError>([] { const Baked baked(with_corner_at(bumpy(), Vec3d(1e38, 0, 0))); }); });
     add("all faces twice", close, [=] { return against_exact(Baked(with_faces_twice(bumpy())), rays, bound); });
-    add("all faces twice, once from behind", close,
+    add("all faces twice, once reversed", close,
         [=] { return against_exact(Baked(with_backs(bumpy())), rays, bound); });
     add("all faces inside out", close,
         [=] { return against_exact(Baked(flipped(bumpy(), [](std::size_t) { return true; })), rays, bound); });
-    add("a third of the faces inside out", "a warning that counts the edges between them", [=] {
+    add("a third of the faces inside out", "a warning that counts the edges where orientations differ", [=] {
         const Baked baked(flipped(bumpy(), [](std::size_t f) { return f % 3 == 0; }));
         const std::vector<std::string> warnings = baked.warnings();
         const auto found = std::find_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
@@ -139,7 +139,7 @@ std::vector<Extreme> damages() {
     add("one face is missing", close, [=] { return against_exact(Baked(without_face(bumpy(), 1234)), rays, bound); });
     add("a shell within a shell", close,
         [=] { return against_exact(Baked(combined(bumpy(), 0.8, Vec3d(0.0))), rays, bound); });
-    add("two bodies through each other",
+    add("two intersecting bodies",
         "RMSE at most 0.05 against exact rays, except at vertices inside: the seam is sharper than any voxel",
         [=] { return outside_against_exact(combined(bumpy(), 0.9, Vec3d(0.7, 0.2, 0.1)), rays, 0.05); });
     add("two boxes with a face in common", close + ", except at vertices inside", [=] {
@@ -154,7 +154,7 @@ std::vector<Extreme> damages() {
             const Baked baked(mesh);
         });
     });
-    add("all vertices at one place", refusal, [] {
+    add("all vertices at one point", refusal, [] {
         return refused<InputError>([] {
             Mesh mesh = bumpy();
             for (Vec3d& p : mesh.positions)

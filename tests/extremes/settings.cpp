@@ -25,7 +25,7 @@ std::vector<Extreme> settings() {
         rows.push_back({"setting", std::move(name), std::move(must), std::move(run)});
     };
     for (const float radius : {1e-6f, 1e-4f})
-        add(fmt::format("radius {:g} of D", radius), "1, within 0.02: nothing is in front of a convex surface", [=] {
+        add(fmt::format("radius {:g} of D", radius), "1, within 0.02: nothing occludes a convex surface", [=] {
             return against_value(Baked(test::sphere_mesh(5), {.radius = radius}), 1.0f, {"traced", "guided", "exact"},
                                  0.02);
         });

@@ -67,7 +67,7 @@ std::vector<Extreme> shapes() {
     });
     for (const double share : {1e-3, 1e-6, 1e-9})
         add(fmt::format("slivers, {:g} of their length high", share),
-            "RMSE at most 0.01 from the surface without them: they change the weights of faces in the "
+            "RMSE at most 0.01 relative to the surface without slivers: they change the weights of faces in the "
             "normals",
             [=] {
                 return rmse_against(bumpy(), with_slivers(bumpy(), share), {"traced", "exact"}, 0.01);
@@ -78,7 +78,7 @@ std::vector<Extreme> shapes() {
         mesh.add_face(std::array{0u, 1u, 2u});
         return against_value(Baked(mesh), 1.0f, all_kinds, 0.02);
     });
-    add("a single triangle of 1e-9 of a right one", "1 on both sides", [] {
+    add("a single triangle 1e-9 of its length high", "1 on both sides", [] {
         Mesh mesh;
         mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.3, 1e-9, 0}};
         mesh.add_face(std::array{0u, 1u, 2u});
