@@ -241,8 +241,9 @@ Vec3 vector(const std::array<double, 3>& v) {
 void add_field(py::module_& module) {
     py::class_<SceneField>(module, "Field", R"(Signed distances: positive outside, negative inside, in scene units.
 
-Field(mesh, radius="10%", voxel=None, sign="auto") voxelizes a mesh; distances are correct up to the radius, and beyond
-are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), torus() and capsule() are shapes.)")
+Field(mesh, radius="10%", voxel=None, sign="auto") voxelizes a mesh. Distances are correct up to the radius; beyond
+it, they are lower bounds. Field.read() reads a .vdb. Field.sphere(), box(), plane(), torus() and capsule() make
+shapes.)")
         .def(py::init(&of_mesh), py::arg("mesh"), py::arg("radius") = "10%", py::arg("voxel") = py::none(),
              py::arg("sign") = "auto")
         .def_static(
@@ -277,7 +278,8 @@ are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), tor
                 return SceneField{Torus{vector(center), size_of(ring, "ring_radius"), size_of(tube, "tube_radius")},
                                   {}};
             },
-            py::arg("center"), py::arg("ring_radius"), py::arg("tube_radius"), "Around the y axis through its centre")
+            py::arg("center"), py::arg("ring_radius"), py::arg("tube_radius"),
+            "A torus around the y axis through its centre")
         .def_static(
             "capsule",
             [](const std::array<double, 3>& start, const std::array<double, 3>& end, double radius) {
@@ -295,11 +297,10 @@ are lower bounds. Field.read() takes a .vdb, Field.sphere(), box(), plane(), tor
              "(n,) float32: ambient occlusion at points with normals, by a method that needs no mesh")
         .def("dense", &dense, py::arg("shape"), py::arg("box") = py::none(),
              "(values, origin, spacing): the distances on a regular lattice of that shape between two corners, by "
-             "default "
-             "those of a cube around the surface")
+             "default those of a cube around the surface")
         .def_property_readonly(
             "resolution", [](const SceneField& self) { return double(self.field.resolution()) * self.frame.diagonal; },
-            "edge of the finest voxel, scene units; 0 for shapes");
+            "edge of the finest voxel, in scene units; 0 for shapes");
 }
 
 }

@@ -148,14 +148,14 @@ The arrays that its properties return are read-only views, without a copy.)")
             "(m + 1,) uint32: where the faces begin in corners")
         .def_property_readonly(
             "normals", [](const py::object& self) { return optional_view(self, self.cast<const Mesh&>().normals, 3); },
-            "(n, 3) float32, those of the file; or None")
+            "(n, 3) float32: the normals that it was read or made with; or None")
         .def_property_readonly(
             "uvs", [](const py::object& self) { return optional_view(self, self.cast<const Mesh&>().vertex_uvs, 2); },
             "(n, 2) float32, v upwards; or None")
         .def_property_readonly(
             "name", [](const Mesh& mesh) { return mesh.name; }, "the file that it was read from")
         .def_property_readonly(
-            "warnings", [](const Mesh& mesh) { return in_python(mesh.warnings); }, "what reading had to leave out")
+            "warnings", [](const Mesh& mesh) { return in_python(mesh.warnings); }, "what the reader had to leave out")
         .def(
             "attribute",
             [](const Mesh& mesh, const std::string& name) {
@@ -178,7 +178,7 @@ The arrays that its properties return are read-only views, without a copy.)")
                 mesh.set_attribute(
                     {name, static_cast<int>(table.shape(1)), {table.data(), table.data() + table.size()}});
             },
-            py::arg("name"), py::arg("values"), "Adds one value, or k values, per vertex, to be written")
+            py::arg("name"), py::arg("values"), "Adds one value, or k values, per vertex, which write() stores")
         .def("__repr__", &summary);
     module.def(
         "read",
@@ -189,7 +189,7 @@ The arrays that its properties return are read-only views, without a copy.)")
         },
         py::arg("file"), R"(Reads a mesh: PLY, OBJ, OFF, STL or glTF. A PLY without faces is a set of points.
 
-Raises InputError, with the file, the place and a fix.)");
+Raises InputError; its message names the file, the line or byte, and a fix.)");
     module.def(
         "write",
         [](const Mesh& mesh, const std::filesystem::path& file) {
@@ -200,7 +200,7 @@ Raises InputError, with the file, the place and a fix.)");
         py::arg("mesh"), py::arg("file"), R"(Writes a mesh as PLY, OBJ or glTF; everything in its file is kept.
 
 The file is written completely or not at all. Returns what the format could not store, as messages. Raises InputError
-for any other extension, IoError if it cannot be written.)");
+for any other extension, and IoError if the file cannot be written.)");
 }
 
 }

@@ -276,9 +276,9 @@ void add_maps(py::module_& module) {
             },
             "(height, width) uint8: 0 background, 1 a face, 2 the margin of an island, 3 no high mesh within reach")
         .def_property_readonly(
-            "texels", [](const MapResult& r) { return r.maps.texels; }, "baked")
+            "texels", [](const MapResult& r) { return r.maps.texels; }, "number of baked texels")
         .def_property_readonly(
-            "overlaps", [](const MapResult& r) { return r.maps.overlaps; }, "texels of several faces")
+            "overlaps", [](const MapResult& r) { return r.maps.overlaps; }, "number of texels that several faces cover")
         .def_property_readonly(
             "baked", [](const MapResult& r) { return Result{r.maps.baked}; },
             "method, rmse, radius, warnings and seconds");
@@ -289,9 +289,10 @@ void add_maps(py::module_& module) {
 
 size: texels along each side, or (width, height). subsamples: samples along each side of a texel.
 margin: texels to fill around islands.
-uv_set: of a glTF file. space: "tangent" or "object", of directions. high: meshes whose surface is baked instead.
-reach: how far to look for them, a length.
-All other options are those of bake(). Returns a BakedMaps. Raises as bake(), and InputError without UVs.)");
+uv_set: the set of UVs of a glTF file. space: "tangent" or "object", the coordinate space of directions.
+high: meshes whose surface is baked instead. reach: a length, how far to look for them.
+All other options are those of bake(). Returns a BakedMaps. Raises what bake() raises, and InputError if the mesh has no
+UVs.)");
 }
 
 void add_result(py::module_& module) {
@@ -304,7 +305,8 @@ void add_result(py::module_& module) {
                                     : "(n,) float32, or None if it was not requested");
     result
         .def_property_readonly(
-            "method", [](const Result& r) { return r.baked.method; }, "with its rays or samples: 'guided:3'")
+            "method", [](const Result& r) { return r.baked.method; },
+            "the method, with its number of rays or samples, such as 'guided:3'")
         .def_property_readonly(
             "rmse", [](const Result& r) { return r.baked.rmse; },
             "estimated RMSE of ao against exact rays; None if it was not measured")
@@ -392,21 +394,25 @@ radius: maximum distance of occluders: scene units, "10%" of the diagonal, or "i
 quality: "draft", "good" or "fine": an RMSE of at most 0.05, 0.02 or 0.005; error: any other RMSE.
 method: a name from `alcove methods` instead of the planner's choice, with parameters such as {"rays": 64}.
 attributes: "ao", "convexity", "bent_normal" (n, 3), "thickness" (scene units).
-occluders: a list of meshes that also occlude. ground: a plane through the lowest vertex does; up: its direction.
+occluders: a list of meshes that also occlude. ground: add an occluding plane through the lowest vertex.
+up: up direction for ground.
 self_only: each connected part is occluded only by itself, the occluders and the ground.
 via: "grid", "auto" or "mesh": the methods that the planner may choose. normals: "auto", "file", "angle" or "area".
 sign: "auto", "solid" or "sheet". voxel: the edge of the finest voxel, a length.
-weld: joins vertices within this length before the bake. point_size: a length, the size of a point without faces.
+weld: joins vertices within this length before the bake. point_size: the distance between neighbouring points of a Mesh
+    without faces, a length.
 points: (positions, normals) or (positions, normals, faces): bake these points instead of the vertices.
 threads: 0 for one per core. time_limit: seconds; a bake that would clearly take longer is refused.
-progress: called with a text and the share that is done, on any thread; what it raises ends the bake. So does Ctrl-C.
+progress: called with the name of the stage and the fraction completed, on any thread; an exception that it raises ends
+    the bake. So does Ctrl-C.
 
-Returns a Baked. Raises InputError, LimitError, MemoryError, TimeLimitError. The GIL is released, so several threads can
-bake at once.)");
-    module.def("limit_memory", &limit_memory, py::arg("bytes"),
-               "Limits the memory for grids and maps; by default half of that of the machine. Applies to all threads.");
+Returns a Baked. Raises InputError, LimitError, MemoryError or TimeLimitError. The GIL is released, so several threads
+can bake at once.)");
+    module.def(
+        "limit_memory", &limit_memory, py::arg("bytes"),
+        "Limits the memory for grids and maps; the default is half of the machine's memory. Applies to all threads.");
     module.def("limit_reading", &limit_reading, py::arg("bytes"),
-               "Limits the bytes that are read from one file; by default half of the memory limit, at most 4 GB.");
+               "Limits the bytes that are read from one file; the default is half of the memory limit, at most 4 GB.");
     module.def(
         "add",
         [](Mesh& mesh, const Result& result, const std::string& color) {
