@@ -56,15 +56,15 @@ void add_files(CLI::App& app, BakeVerb& verb) {
         ->required();
     app.add_option("-o,--output", verb.output,
                    "Mesh to write (ply, obj, glb, gltf), texture map (png, exr), or a folder that gets one mesh per "
-                   "input. <UDIM> in "
-                   "the name of a map: one file per tile")
+                   "input. With <UDIM> in the name of a map, each tile gets a file")
         ->required();
 }
 
 /// The radius, the accuracy and the method.
 void add_planning(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
-    add_radius_option(app, bake.radius, "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), inf");
+    add_radius_option(app, bake.radius,
+                      "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), or inf");
     CLI::Option* quality = add_choice<std::optional<Quality>>(
         app, "--quality", verb.quality, {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
         "Maximum RMSE against exact rays: draft 0.05, good 0.02, fine 0.005; the planner picks the fastest method");
@@ -106,8 +106,9 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
          {"file", NormalSource::file},
          {"angle", NormalSource::angle},
          {"area", NormalSource::area}},
-        "file: the file's normals; angle, area: means of the face normals, weighted by face angle at the vertex or by "
-        "face area; auto: the file's normals if it has any, else angle (with hard edges above 40 degrees in a map)")
+        "file: the file's normals; angle, area: means of the face normals, weighted by the angle of each face at the "
+        "vertex, or by its area; auto: the file's normals if it has any, else angle (with hard edges above 40 degrees "
+        "in a map)")
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);

@@ -134,7 +134,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
     add_choice<MapDepth>(
         verb, "--depth", request.files.depth,
         {{"8", MapDepth::eight}, {"16", MapDepth::sixteen}, {"half", MapDepth::half}, {"float", MapDepth::single}},
-        "Bit depth of a map: 8 or 16 in a png, half or float in an exr. Default: 8, half")
+        "Bit depth of a map: 8 or 16 in a png, half or float in an exr. Default: 8 in a png, half in an exr")
         ->type_name("DEPTH");
     add_choice<MapSpace>(
         verb, "--space", request.map.space, {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
@@ -186,7 +186,7 @@ void check_miss_mask(const MapRequest& request, const std::string& output) {
     if (request.high.empty())
         throw InputError("--miss-mask shows where no high mesh is found: give --high");
     if (extension(mask) != ".png")
-        throw InputError(mask + ": the mask of misses is written as .png: use this extension");
+        throw InputError(mask + ": the miss mask is written as .png: use this extension");
     const auto has_tiles = [](const std::string& file) { return file.find("<UDIM>") != std::string::npos; };
     if (has_tiles(output) != has_tiles(mask))
         throw InputError(mask + ": put <UDIM> into the names of both the output and the --miss-mask, or of neither");
@@ -195,7 +195,7 @@ void check_miss_mask(const MapRequest& request, const std::string& output) {
     for (const std::string_view attribute : {"", "_convexity", "_bent_normal", "_thickness", "_normal", "_height",
                                              "_position", "_object", "_ao_short", "_ao_long"})
         if (name == stem + std::string(attribute))
-            throw InputError(mask + ": may be the name of a map: choose another name");
+            throw InputError(mask + ": could also be the name of a map: choose another name");
     const AtomicFile probe(mask);
 }
 

@@ -147,10 +147,10 @@ void add_measure(CLI::App& program) {
                      "is meshed first")
         ->required();
     verb->add_option("--radius", options->radius,
-                     "Maximum distances of occluders, separated by commas: 0.2 (scene units), 10%, inf")
+                     "Maximum distances of occluders, separated by commas: 0.2 (scene units), 10%, or inf")
         ->type_name("LEN,...")
         ->capture_default_str();
-    verb->add_option("--voxel", options->voxel, "Edges of the finest voxel, separated by commas: 0.2, 0.5%, auto")
+    verb->add_option("--voxel", options->voxel, "Edges of the finest voxel, separated by commas: 0.2, 0.5%, or auto")
         ->type_name("LEN,...")
         ->capture_default_str();
     add_weld_option(*verb, options->weld);

@@ -137,7 +137,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
             char* end = nullptr;
             const double seconds = std::strtod(text.c_str(), &end);
             if (!(seconds > 0.0 && seconds <= 1e9) || *end != '\0')
-                throw InputError(fmt::format("takes seconds, above 0 and up to 1e9, not '{}'", text));
+                throw InputError(fmt::format("takes a number of seconds above 0 and up to 1e9, not '{}'", text));
         }))
         ->option_text("SECONDS");
     add_limits(verb);
@@ -161,7 +161,7 @@ void add_radius_option(CLI::App& verb, Length& radius, const std::string& descri
 void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& sign) {
     verb.add_option_function<std::string>(
             "--voxel", [&voxel](const std::string& text) { voxel = parse_voxel(text); },
-            "Edge of the finest voxel: 0.2, 0.5%, or auto (from the radius; in a bake, also from the error)")
+            "Edge of the finest voxel: 0.2, 0.5%, or auto (derived from the radius and, in a bake, the error)")
         ->check(parsable(parse_voxel))
         ->type_name("LEN")
         ->default_str("auto");
@@ -169,8 +169,7 @@ void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& 
         verb, "--sign", sign,
         {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}},
         "Sign of the distances. solid: negative inside, for closed meshes; sheet: both sides of the faces count as "
-        "outside; "
-        "auto: chosen from the mesh")
+        "outside; auto: chosen from the mesh")
         ->type_name("SIGN")
         ->default_str("auto");
 }

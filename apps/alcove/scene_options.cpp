@@ -87,7 +87,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         ->default_str("4");
     verb.add_option_function<std::string>(
             "--radius", [&request](const std::string& text) { request.radius = Length(text); },
-            "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), inf")
+            "Maximum distance of occluders: 0.2 (scene units), 10% (of the diagonal), or inf")
         ->check(parsable([](const std::string& text) { return Length(text); }))
         ->type_name("LEN")
         ->default_str("10%");
@@ -97,7 +97,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         "Quality of the default method (guided): draft, good or fine. Sets the number of rays");
     quality->type_name("NAME")->default_str("good");
     add_method_options(verb, request.method,
-                       "One of the image methods march_steps and screen_space; none; or one of the estimators: ");
+                       "march_steps or screen_space, which work on images only; none; or one of the estimators: ");
     verb.get_option("--method")->excludes(quality);
     verb.get_option("--rays")->description(
         "Rays per pixel sample, for methods that trace rays (default for traced and exact: 16)");

@@ -137,7 +137,7 @@ void add_voxelize(CLI::App& program) {
     app->add_option(
            "--lattice", verb->lattice,
            "Align the voxels with those of other grids, so that the grids can be combined. LEN: put voxel centres at "
-           "whole multiples of LEN from the origin; FILE: on the centres of the finest voxels of that .vdb")
+           "whole multiples of LEN from the origin; FILE: at the centres of the finest voxels of that .vdb")
         ->check(parsable([](const std::string& text) {
             if (!is_grid(text))
                 lattice_length(text);

@@ -103,7 +103,7 @@ TEST(Points, OutliersDuplicatesAndBrokenPointsDoNoHarm) {
         far += std::fabs(glm::distance(p, Vec3d(5.0, -3.0, 1.0)) - radius) > 0.5 * spacing_of_sphere(20000);
     EXPECT_LT(far, surface.mesh.vertex_count() / 100);
     EXPECT_TRUE(has_warning(surface.mesh, "are outliers"));
-    EXPECT_TRUE(has_warning(surface.mesh, "3,000 points repeat the place of another"));
+    EXPECT_TRUE(has_warning(surface.mesh, "3,000 points repeat the position of another"));
     EXPECT_TRUE(has_warning(surface.mesh, "1 point has coordinates that are not finite"));
     EXPECT_EQ(surface.positions[24000], surface.positions[0]); // a duplicate has the place of its twin
     EXPECT_EQ(surface.normals[24000], surface.normals[0]);

@@ -392,7 +392,7 @@ void warn_of_kept_colors(Mesh& mesh, const std::vector<float>& ao, ColorUse use)
         return;
     if (has_baked_colors(mesh))
         mesh.warnings.emplace_back(
-            "the vertex colours are kept but are not this ao: an earlier bake may have made them; "
+            "the vertex colours are kept, but they do not show this ao: an earlier bake may have made them; "
             "add --color ao to replace them");
     else if (use == ColorUse::automatic)
         mesh.warnings.push_back(fmt::format("the {} of the input is kept, so viewers may not show ao, which is in the "

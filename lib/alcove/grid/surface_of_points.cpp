@@ -21,15 +21,14 @@ std::vector<std::string> warnings_of(const PointCloud& cloud) {
                            " far from the others; left out");
     if (!cloud.duplicates.empty())
         warnings.push_back(counted(cloud.duplicates.size(), "point repeats", "points repeat") +
-                           " the place of another");
+                           " the position of another");
     if (cloud.not_finite > 0)
         warnings.push_back(counted(cloud.not_finite, "point has", "points have") +
                            " coordinates that are not finite numbers; left out");
     if (cloud.estimated_normals > 0)
-        warnings.push_back(
-            fmt::format("{} no normal, so it was estimated from neighbours; which side is out is a guess: "
-                        "export the points with normals",
-                        counted(cloud.estimated_normals, "point has", "points have")));
+        warnings.push_back(fmt::format("{} no normal, so it was estimated from neighbours and may point the wrong way: "
+                                       "export the points with normals",
+                                       counted(cloud.estimated_normals, "point has", "points have")));
     return warnings;
 }
 
@@ -43,7 +42,7 @@ void warn_of_detail(const PointCloud& cloud, float voxel, std::vector<std::strin
     constexpr std::size_t few = 100;
     if (cloud.spacing < least_spacing)
         warnings.emplace_back(
-            "the points are so far apart, compared with their spacing, that their positions are rounded: "
+            "the points extend so far, compared with their spacing, that their positions are rounded: "
             "bake the parts of the scene one at a time");
     else if (lost > cloud.points.size() / few)
         warnings.push_back(fmt::format("{} much closer together than the others, and detail of that size is lost: bake "
@@ -56,7 +55,7 @@ void warn_of_size(const PointCloud& cloud, float size, std::vector<std::string>&
     if (size > far_off * cloud.spacing || size < cloud.spacing / far_off)
         warnings.push_back(
             fmt::format("--point-size is {:.2g} times the distance between neighbouring points, which is "
-                        "{:.2g} of the diagonal: leave it out, or give about that",
+                        "{:.2g} of the diagonal: leave it out, or give a length close to that distance",
                         size / cloud.spacing, cloud.spacing));
 }
 

@@ -47,7 +47,7 @@ Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& plac
 
 Mesh mesh_zero_surface(const GridStack& stack, float adaptivity) {
     if (stack.sign == Sign::sheet)
-        throw InputError("the grid stores an open surface as a sheet, which has no back to mesh: bake the "
+        throw InputError("the grid stores an open surface as a sheet, which has no back side to mesh: bake the "
                          "mesh that it was voxelized from");
     const LevelSet& finest = stack.levels.front();
     return mesh_of(*finest.grid->grid, adaptivity, [&](const Vec3d& index) {

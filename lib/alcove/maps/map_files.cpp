@@ -209,7 +209,7 @@ std::vector<fs::path> write_maps(const BakedMaps& maps, const fs::path& file, co
 
 std::vector<fs::path> write_miss_mask(const BakedMaps& maps, const fs::path& file) {
     if (lower_extension(file) != ".png")
-        throw InputError(file.string() + ": the mask of misses is written as .png: use this extension");
+        throw InputError(file.string() + ": the miss mask is written as .png: use this extension");
     std::vector<fs::path> written;
     for (const MapTile& tile : maps.tiles) {
         std::vector<std::uint16_t> values(tile.coverage.size());

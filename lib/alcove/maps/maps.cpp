@@ -446,8 +446,8 @@ void check(const MapOptions& options) {
     if (options.reach && !std::isfinite(options.reach->value))
         throw InputError("--reach takes a finite length");
     if (options.high.empty() && (!options.surface.empty() || options.reach || options.cage))
-        throw InputError("normal, height, position and object are those of a high mesh, and --reach and --cage are for "
-                         "one: give --high");
+        throw InputError("normal, height, position and object come from a high mesh, and --reach and --cage apply only "
+                         "to one: give --high");
     if (options.uv_set < 0)
         throw InputError("--uv-set takes a number, counted from 0");
 }

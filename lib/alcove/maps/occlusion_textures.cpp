@@ -136,9 +136,10 @@ std::string name_of_material(const GltfDocument* document, const std::optional<s
 std::string not_packed(const std::vector<std::string>& materials) {
     constexpr std::size_t most = 5;
     const std::size_t named = std::min(materials.size(), most);
-    return fmt::format("--pack-orm: {} not packed, but in an image of its own: {}{} {} no metallic-roughness texture "
+    return fmt::format("--pack-orm: {} instead of being packed: {}{} {} no metallic-roughness texture "
                        "on UVs without overlaps",
-                       counted(materials.size(), "occlusion texture is", "occlusion textures are"),
+                       counted(materials.size(), "occlusion texture gets an image of its own",
+                               "occlusion textures get images of their own"),
                        fmt::join(materials.begin(), materials.begin() + static_cast<std::ptrdiff_t>(named), ", "),
                        materials.size() > most ? fmt::format(" and {} more", materials.size() - most) : "",
                        materials.size() == 1 ? "has" : "have");

@@ -168,7 +168,7 @@ void SharedGrids::extend_grid(LoadedShape& loaded) const {
             return;
         loaded.warnings.push_back(
             fmt::format("{} holds distances up to {:.4g}, less than occlusion and shadows need: larger ones are "
-                        "guessed; voxelize its mesh with a larger --radius",
+                        "estimated; voxelize its mesh with a larger --radius",
                         file.string(), reach * loaded.stack.frame.diagonal));
         return;
     }

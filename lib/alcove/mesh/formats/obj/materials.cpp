@@ -180,7 +180,7 @@ void assign(const Materials& materials, const ObjDocument& document, FaceMateria
             without.insert(name);
     }
     if (!without.empty() && result.warnings.empty()) // else a missing file is the cause
-        result.warnings.push_back(fmt::format("{} no colour (Kd) in a material file, the first is {}; grey is used",
+        result.warnings.push_back(fmt::format("{} no colour (Kd) in a material file (first: {}); grey is used",
                                               counted(without.size(), "material has", "materials have"),
                                               in_quotes(*without.begin())));
     if (std::string missing = left_out(used); !missing.empty())

@@ -80,7 +80,8 @@ class ObjReader {
         }
         if (hides_data_keyword(keyword)) {
             text_.move_to(keyword.data());
-            text_.fail(in_quotes(keyword) + " is not an OBJ keyword; remove what is before or after the keyword in it");
+            text_.fail(in_quotes(keyword) +
+                       " is not an OBJ keyword; remove the characters before or after the keyword");
         }
         if (unknown_lines_++ == 0)
             first_unknown_ = keyword;

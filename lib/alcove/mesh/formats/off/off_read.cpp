@@ -70,8 +70,8 @@ class OffReader {
         }
         warn_of_order();
         if (map_indices_ > 0)
-            warn(map_indices_, "colour is", "colours are",
-                 "an index into a colour map that is not in the file; left out");
+            warn(map_indices_, "colour is an index", "colours are indices",
+                 "into a colour map that is not in the file; left out");
         if (undeclared_ > 0)
             warn(undeclared_, "vertex line has", "vertex lines have",
                  "more values than the header keyword declares (COFF, NOFF, ...); left out");
@@ -155,7 +155,7 @@ class OffReader {
             "the values of each vertex are read as " + layout_.columns(color_components_) +
             (layout_.is_standard
                  ? ", which fits the numbers; " + keyword + " declares another order"
-                 : "; the keyword " + keyword + " does not have the order of the format, " + "[ST][C][N][4][n]OFF"));
+                 : "; the keyword " + keyword + " does not follow the order of the format, " + "[ST][C][N][4][n]OFF"));
     }
 
     /// Whether the line after the two other counts has an edge count.
