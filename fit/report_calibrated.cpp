@@ -115,8 +115,7 @@ networks and write this page:
         }
     text += fmt::format("\n## Each mesh, radius {:.3g} %\n\n", 100.0 * radii[reported_radius]);
     text += "| mesh | group | standard deviation of the reference | 13 probes | 38 probes | 63 probes | 13, fitted | "
-            "38, fitted "
-            "| 63, fitted |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+            "38, fitted | 63, fitted |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (const MeasuredFile& file : files)
         text += fmt::format("| {} | {} |{}\n", file.name, names[static_cast<std::size_t>(file.group)],
                             columns(file.at[reported_radius]));

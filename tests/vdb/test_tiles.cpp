@@ -34,7 +34,7 @@ TEST_F(Tiles, ASurfaceBetweenTilesIsRefused) {
     for (const openvdb::Index level : {1u, 2u, 3u}) {
         const auto grid = level_set();
         grid->tree().addTile(level, Coord(0), -3.0f, true);
-        EXPECT_NE(quick_refusal(grid).find("has 1 active tile, a block of one value"), std::string::npos) << level;
+        EXPECT_NE(quick_refusal(grid).find("has 1 active tile (a block of one value)"), std::string::npos) << level;
     }
     const auto checkered = level_set();
     for (int x = 0; x < 32; ++x)

@@ -177,7 +177,7 @@ TEST_F(Transforms, ACutSurfaceIsTurnedButNotStretched) {
     EXPECT_EQ(refusal("turned.vdb"), "read");
     cut->transform().preScale(Vec3d(1, 2, 1));
     write_foreign(cut, "stretched.vdb", 0);
-    EXPECT_NE(refusal("stretched.vdb").find("'cut' cannot be voxelized with cubes, as its surface is open"),
+    EXPECT_NE(refusal("stretched.vdb").find("'cut' cannot be voxelized again, because its surface is open"),
               std::string::npos)
         << refusal("stretched.vdb");
 }

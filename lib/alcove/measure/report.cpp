@@ -32,9 +32,9 @@ figure { display: inline-block; margin: 0 8px 12px 0 } figcaption { font-size: 1
 constexpr std::string_view introduction =
     R"(<p>The reference is 1,024 exact rays per vertex, whose own error is about 0.003. The table gives the RMSE, the
 bias (positive: too open), the 99th percentile of the differences and the largest difference. The standard deviation
-of the truth is the RMSE of the best constant guess. Times are CPU seconds of the process, summed over all threads, for
-one pass over all vertices. They include building the grid and the BVH for methods that need them; each is built once,
-and its time counts for every method that uses it. <code>map()</code> calls and rays are per vertex. Lengths are
+of the reference is the RMSE of the best constant guess. Times are CPU seconds of the process, summed over all threads,
+for one pass over all vertices. They include building the grid and the BVH for methods that need them. Each is built
+once, and its time counts for every method that uses it. <code>map()</code> calls and rays are per vertex. Lengths are
 relative to the diagonal of the mesh. Methods on the Pareto front are bold in the table: no cheaper method has a
 smaller error. Click on a heading to sort by it.</p>
 )";
@@ -227,7 +227,7 @@ class Page {
         std::sort(order.begin(), order.end(),
                   [&](std::size_t a, std::size_t b) { return group[a]->error.rmse < group[b]->error.rmse; });
         std::string text =
-            fmt::format("<table><caption>Radius {}; standard deviation of the truth {:.4f}</caption>\n<thead><tr>",
+            fmt::format("<table><caption>Radius {}; standard deviation of the reference {:.4f}</caption>\n<thead><tr>",
                         percent(group.front()->radius), group.front()->error.deviation);
         for (const std::string_view heading :
              {"method", "voxel, %", "RMSE", "bias", "99 %", "max", "grid, s", "BVH, s", "occlusion, s", "total, s",

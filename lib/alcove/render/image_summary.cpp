@@ -39,7 +39,7 @@ ImageSummary summarize_image(const std::filesystem::path& file) {
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
                 summary.texts.emplace_back(attribute.name(), text->value());
     } catch (const std::exception&) {
-        throw InputError(file.string() + ": not a readable EXR or PNG image: write it again");
+        throw InputError(file.string() + ": is not a readable EXR or PNG image: write it again");
     }
     return summary;
 }

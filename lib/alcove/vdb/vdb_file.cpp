@@ -43,7 +43,7 @@ LevelSet level_of(const FloatGrid::Ptr& grid, const GridStack& stack, const std:
     if (!(band > 0.0 && band < double(std::numeric_limits<float>::max())))
         refuse(file,
                fmt::format("grid '{}' has a background of {:g}, which is not a distance outside its band: the file "
-                           "is damaged, write it again",
+                           "is damaged; write it again",
                            grid->getName(), grid->background()));
     LevelSet level;
     level.voxel = size / frame.diagonal;
@@ -105,7 +105,7 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
         LevelSet level = level_of(grid, stack, file);
         const double voxel = number(*grid, "alcove:voxel");
         if (!(std::fabs(voxel - level.voxel) <= 1e-5 * voxel) || !is_aligned({grid}))
-            refuse(file, fmt::format("grid '{}' was turned or scaled after alcove wrote it: voxelize the mesh again",
+            refuse(file, fmt::format("grid '{}' was rotated or scaled after alcove wrote it: voxelize the mesh again",
                                      grid->getName()));
         level.voxel = voxel;
         if (!stack.lattice)
@@ -281,7 +281,7 @@ void write_grids(const GridStack& stack, const std::filesystem::path& file) {
             verify(grid.grid, out.temporary());
     } catch (const std::exception& error) {
         throw IoError(
-            fmt::format("{}: cannot be written completely, is the disk full? ({})", file.string(), error.what()));
+            fmt::format("{}: cannot be written completely; is the disk full? ({})", file.string(), error.what()));
     }
     out.commit();
 }

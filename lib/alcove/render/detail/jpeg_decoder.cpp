@@ -97,8 +97,8 @@ DecodedImage decode_jpeg(std::string_view bytes, const std::string& name, Decode
     DecodedImage image;
     const auto require = [&](bool read) {
         if (!read)
-            throw InputError(
-                fmt::format("{}: a JPEG that cannot be read ({}); write it again, or as PNG", name, decoder.failure));
+            throw InputError(fmt::format("{}: is a JPEG that cannot be read ({}); write it again, or as PNG", name,
+                                         decoder.failure));
     };
     require(read_header(decoder, bytes, image));
     check_memory(image, name);

@@ -82,7 +82,7 @@ DecodedImage decode_png(std::string_view bytes, const std::string& name, Decode 
     const Reader reader(decoder);
     const auto require = [&](bool read) {
         if (!read)
-            throw InputError(fmt::format("{}: a damaged PNG ({}); write it again", name, decoder.failure));
+            throw InputError(fmt::format("{}: is a damaged PNG ({}); write it again", name, decoder.failure));
     };
     require(reader.info && read_header(decoder, reader.png, reader.info));
     DecodedImage& image = decoder.image;

@@ -34,7 +34,7 @@ std::optional<Texture> read_png(const std::filesystem::path& file) {
     Texture texture = texture_of_size(file, png.width, png.height);
     std::vector<png_byte> bytes(PNG_IMAGE_SIZE(png));
     if (!png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr))
-        throw InputError(fmt::format("{}: a damaged PNG ({}): write it again", file.string(), png.message));
+        throw InputError(fmt::format("{}: is a damaged PNG ({}): write it again", file.string(), png.message));
     for (std::size_t i = 0; i < texture.texels.size(); ++i)
         texture.texels[i] = Vec3(bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2]) / 255.0f;
     return texture;
@@ -56,7 +56,7 @@ Texture read_exr(const std::filesystem::path& file) {
     } catch (const LimitError&) {
         throw;
     } catch (const std::exception&) {
-        throw InputError(file.string() + ": not a readable PNG or EXR image: write it again");
+        throw InputError(file.string() + ": is not a readable PNG or EXR image: write it again");
     }
 }
 

@@ -69,7 +69,7 @@ std::vector<openvdb::GridBase::Ptr> read_bases(const std::filesystem::path& file
         stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
         return GridReader().read(stream, structure, wanted);
     } catch (const std::ios_base::failure&) {
-        refuse(file, "ends early: the file is truncated or damaged, write it again");
+        refuse(file, "ends early: the file is truncated or damaged; write it again");
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {

@@ -64,12 +64,12 @@ constexpr const char* rebuild = "write a narrow-band level set, as OpenVDB's lev
 void check_tiles(const FloatGrid::Ptr& grid, const std::filesystem::path& file, std::vector<std::string>& warnings) {
     const Tiles tiles = simplify_tiles({grid});
     if (tiles.at_surface > 0)
-        refuse(file, fmt::format("grid '{}' has {} of one value, next to values of the other sign, so no voxels hold "
+        refuse(file, fmt::format("grid '{}' has {} of one value), next to values of the other sign, so no voxels hold "
                                  "distances to its surface: {}",
                                  grid->getName(),
-                                 counted(tiles.at_surface, "active tile, a block", "active tiles, blocks"), rebuild));
+                                 counted(tiles.at_surface, "active tile (a block", "active tiles (blocks"), rebuild));
     if (tiles.voxels_within > 0)
-        warnings.push_back(fmt::format("grid '{}' has {} active voxels in tiles, blocks of one value, which are not "
+        warnings.push_back(fmt::format("grid '{}' has {} active voxels in tiles (blocks of one value), which are not "
                                        "distances: they are treated as beyond the band",
                                        in_one_line(grid->getName()), grouped(tiles.voxels_within)));
 }
@@ -102,13 +102,13 @@ void check_outliers(const VdbGrid& level, const std::filesystem::path& file, std
     const Outliers outliers = outliers_of(level, grid->voxelSize().x());
     if (outliers.far > 0)
         refuse(file,
-               fmt::format("grid '{}' has {}: the file is damaged, write it again", grid->getName(),
+               fmt::format("grid '{}' has {}: the file is damaged; write it again", grid->getName(),
                            counted(outliers.far, "value that is larger than the grid is wide, so it is not a distance",
                                    "values that are larger than the grid is wide, so they are not distances")));
     if (outliers.count > 0)
         warnings.push_back(fmt::format("in grid '{}', the values of {} of {} active voxels are not distances, "
-                                       "as they differ too much from their neighbours: "
-                                       "the program that wrote them is wrong, or the file is damaged",
+                                       "because they differ too much from their neighbours: "
+                                       "the program that wrote them is faulty, or the file is damaged",
                                        in_one_line(grid->getName()), outliers.count, grid->activeVoxelCount()));
 }
 

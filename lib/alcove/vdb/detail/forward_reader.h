@@ -64,7 +64,7 @@ class ForwardReader {
         if (bytes > left())
             fail(fmt::format("declares a length of {} bytes at byte {}, which is beyond its end", bytes, at_));
     }
-    [[noreturn]] void fail(const std::string& what, const char* fix = "the file is damaged, write it again") const {
+    [[noreturn]] void fail(const std::string& what, const char* fix = "the file is damaged; write it again") const {
         throw InputError(fmt::format("{}: {}: {}", file_.string(), in_one_line(what), fix));
     }
 

@@ -133,8 +133,8 @@ FloatGrid::Ptr voxelized(const FloatGrid::Ptr& grid, const openvdb::math::Transf
                          double memory_limit) {
     const Mesh surface = mesh_zero_surface(VdbGrid{grid});
     if (!closedness(surface).closed())
-        throw InputError(fmt::format("grid '{}' cannot be voxelized with cubes, as its surface is open: resample it to "
-                                     "voxels that are cubes, with a band of 3 of them or more",
+        throw InputError(fmt::format("grid '{}' cannot be voxelized again, because its surface is open: resample it to "
+                                     "cubic voxels, with a band at least 3 voxels wide",
                                      grid->getName()));
     const openvdb::Vec3d origin = lattice->indexToWorld(openvdb::Vec3d(0.0));
     VoxelizeOptions options;
@@ -147,9 +147,10 @@ FloatGrid::Ptr voxelized(const FloatGrid::Ptr& grid, const openvdb::math::Transf
         try {
             return voxelize(surface, triangulate(surface).triangles, options);
         } catch (const LimitError&) {
-            throw LimitError(fmt::format("grid '{}' needs more than the limit of {} GB to be voxelized with cubes of "
-                                         "{:.4g}: resample it to larger voxels that are cubes",
-                                         grid->getName(), rounded(memory_limit / 1e9, 2), options.grid.lattice->voxel));
+            throw LimitError(
+                fmt::format("grid '{}' needs more than the limit of {} GB to be voxelized again with cubic "
+                            "voxels of {:.4g}: resample it to larger cubic voxels",
+                            grid->getName(), rounded(memory_limit / 1e9, 2), options.grid.lattice->voxel));
         }
     }();
     auto result = stack.levels.front().grid->grid;
@@ -274,7 +275,8 @@ VdbGrid join(const std::vector<VdbGrid>& solids, double memory_limit, std::vecto
             continue;
         const openvdb::Vec3d edges = move.grid->voxelSize();
         warnings.push_back(fmt::format(
-            "grid '{}' has {}: its surface is voxelized again with cubes of {:.4g}", in_one_line(move.grid->getName()),
+            "grid '{}' has {}: its surface is voxelized again with cubic voxels of {:.4g}",
+            in_one_line(move.grid->getName()),
             has_cubes({move.grid}) ? fmt::format("a band of only {:.3g} voxels", move.grid->background() / edges.x())
                                    : fmt::format("voxels of {:.4g} x {:.4g} x {:.4g}, which are not cubes", edges.x(),
                                                  edges.y(), edges.z()),

@@ -128,7 +128,7 @@ void check_zipped(ForwardReader& file, std::size_t size, std::size_t stored) {
     uLongf unpacked = stored;
     if (uncompress(values.data(), &unpacked, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK ||
         unpacked != stored)
-        file.fail("contains values that cannot be unzipped");
+        file.fail("contains values that cannot be decompressed");
 }
 
 /// Checks the values of a node: OpenVDB reads the declared number of bytes into a buffer for the expected number.
