@@ -27,13 +27,13 @@ namespace {
 
 /// A mesh and the data that all its targets share.
 struct PreparedMesh {
-    Mesh of_selection;               ///< with the faces that are baked or occlude, if there is a selection
-    const Mesh* whole;               ///< if there is none
+    Mesh of_selection;               ///< has the faces that are baked or occlude, if there is a selection
+    const Mesh* whole;               ///< used if there is no selection
     std::vector<Triangle> triangles; ///< that occlude
     Frame frame;
     VoxelizeOptions voxelizing;
     float radius;
-    std::optional<GridStack> grid{}; ///< the given one, reframed to the mesh and extended to the radius
+    std::optional<GridStack> grid{}; ///< the given grid, moved to the mesh's frame and extended to the radius
     std::optional<SelectedFaces> selected{};
 
     const Mesh& mesh() const { return selected ? of_selection : *whole; }
@@ -53,7 +53,8 @@ Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
     return unit_or_zero(sum);
 }
 
-/// Detects the grid of another mesh, or of the same mesh at another position, by the vertices that faces use.
+/// Detects the grid of another mesh, or of the same mesh at another position: the vertices of faces are far from its
+/// surface.
 void check_distance(GridStack grid, const PreparedMesh& prepared, std::vector<std::string>& warnings) {
     grid.levels.resize(1);
     const LevelStack field(grid);
@@ -90,7 +91,7 @@ void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<s
     prepared.grid = extend_levels(std::move(stack), prepared.radius, inside);
 }
 
-/// Whether a triangle has an area in unit space, where grids and rays are.
+/// Whether any triangle has an area in unit space, which grids and rays work in.
 bool has_area(const PreparedMesh& prepared) {
     const auto unit = [&](std::uint32_t v) {
         return (prepared.mesh().positions[v] - prepared.frame.center) / prepared.frame.diagonal;
@@ -101,7 +102,7 @@ bool has_area(const PreparedMesh& prepared) {
     });
 }
 
-/// The triangles of the faces of `mesh` that occlude.
+/// The triangles of those faces of `mesh` that occlude.
 std::vector<Triangle> occluding_triangles(const Mesh& mesh, const PreparedMesh& prepared) {
     std::vector<Triangle> triangles = triangulate(mesh).triangles;
     if (!prepared.selected)
@@ -125,7 +126,7 @@ PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<s
     prepared.frame = frame_of(prepared.mesh().box());
     if (prepared.triangles.empty() && !options.faces.no_occlude.empty())
         throw InputError("--no-occlude and --opaque-only leave no face that occludes: name fewer parts");
-    if (!has_area(prepared)) // voxelize() finds out too, but rays do not
+    if (!has_area(prepared)) // voxelize() detects this too, but rays do not
         throw InputError("the mesh has no face with nonzero area: there is no surface to occlude anything");
     prepared.voxelizing = voxelizing_of(options, prepared.frame);
     prepared.radius = radius_of(options, prepared.frame, prepared.voxelizing);
@@ -160,7 +161,7 @@ std::vector<Surfel> surfels_of_vertices(const PreparedMesh& prepared, NormalSour
 }
 
 std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, const SurfacePoints& points) {
-    const Mesh& mesh = *prepared.whole; // whose faces the points refer to
+    const Mesh& mesh = *prepared.whole; // the mesh whose faces the points refer to
     std::vector<Surfel> surfels = huge_vector<Surfel>(points.count, {Vec3(0.0f), Vec3(0.0f)});
     parallel_for(points.count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -200,9 +201,9 @@ Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& pr
     return baked;
 }
 
-/// What bake_surfels() bakes on a mesh.
+/// The surfels that bake_surfels() bakes on a mesh.
 struct SurfelSource {
-    std::string_view name; ///< of the surfels, in warnings
+    std::string_view name; ///< name of the surfels in warnings
     bool of_vertices;
     bool by_parts;
     bool is_reconstructed; ///< the mesh is the surface of points
@@ -265,11 +266,11 @@ Baked bake_vertices(const Mesh& mesh, const BakeOptions& options) {
                          .is_own_face = uses_vertex});
 }
 
-/// Bakes the mesh with its vertices joined, and gives each of its own vertices the values of the joined one.
+/// Bakes the mesh with its vertices joined, and gives each original vertex the values of the vertex that it became.
 Baked bake_joined(Mesh mesh, const BakeOptions& options) {
     check(options);
     if (options.normals == NormalSource::angle || options.normals == NormalSource::area)
-        mesh.normals.clear(); // unused, but different ones would keep vertices apart
+        mesh.normals.clear(); // unused, but vertices with different normals would not be joined
     mesh.warnings.clear();
     const JoinedMesh joined = join_vertices(mesh, *options.weld);
     Baked baked = bake_vertices(joined.mesh, options);
@@ -325,7 +326,7 @@ Baked bake_on_surface(const Mesh& mesh, const SurfacePoints& points, const BakeO
                          .more = points.more ? more : decltype(SurfelSource::more)()});
 }
 
-/// Bakes the points of a mesh without faces on their surface.
+/// Bakes the points of a mesh without faces on the surface that is reconstructed from them.
 Baked bake_point_cloud(const Mesh& mesh, const BakeOptions& options) {
     const ThreadLimit limit(options.threads);
     check(options);
@@ -333,7 +334,7 @@ Baked bake_point_cloud(const Mesh& mesh, const BakeOptions& options) {
         throw InputError(named(mesh, "--self and --weld are for meshes, but these are points: leave them out"));
     if (options.grid)
         throw InputError(named(mesh, "--grid is for meshes: the surface of points is reconstructed in each bake"));
-    // Detail that is small compared with the radius hardly changes its occlusion.
+    // Detail that is small compared with the radius hardly changes the occlusion.
     constexpr float voxels_per_radius = 48.0f, large_radius = 0.25f;
     const float radius = radius_of(options, frame_of(mesh.box()), {});
     const PointSurface surface =
@@ -360,8 +361,8 @@ bool has_colors(const Mesh& mesh) {
            has_property(mesh, "blue") || has_property(mesh, "alpha");
 }
 
-/// Whether to add ao as colours and `quality`: not if the mesh has either of its own. An .obj stores ao only as
-/// colours, so those of an earlier bake are replaced.
+/// Whether to add ao as colours and `quality`: by default, only if the mesh has neither. An .obj can store ao only as
+/// colours, so the colours of an earlier bake are replaced.
 bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
         return baked.attributes.has(Channel::ao) && use != ColorUse::none;
@@ -370,7 +371,7 @@ bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     return !has_colors(mesh) && (!has_property(mesh, "quality") || names_value(earlier_bake(mesh), "quality"));
 }
 
-/// The colours of the mesh, or white, times ao, in linear light.
+/// The colours of the mesh, white if it has none, multiplied by ao in linear light.
 std::vector<Color> multiplied(const Mesh& mesh, const std::vector<float>& ao) {
     std::vector<Color> colors = mesh.vertex_colors;
     colors.resize(ao.size(), {255, 255, 255, 255});
@@ -385,7 +386,7 @@ std::vector<Color> multiplied(const Mesh& mesh, const std::vector<float>& ao) {
     return colors;
 }
 
-/// Warns if viewers will show other colours than the ao.
+/// Warns if viewers will show colours other than the ao.
 void warn_of_kept_colors(Mesh& mesh, const std::vector<float>& ao, ColorUse use) {
     const std::vector<Color>& colors = mesh.vertex_colors;
     if (ao.empty() || colors == grey_colors(ao) || colors == grey_colors(ao, ColorEncoding::raw))

@@ -32,8 +32,8 @@ double rmse_of(Quality quality);
 
 /// The methods that the planner may choose.
 enum class Via {
-    grid, ///< calibrated and guided, on the field; exact if these cost far more, do not fit in memory or miss the error
-    automatic, ///< calibrated, guided and exact: the cheapest
+    grid, ///< calibrated or guided, on the field; exact if they cost far more, do not fit in memory or miss the error
+    automatic, ///< the cheapest of calibrated, guided and exact
     mesh,      ///< exact rays on the triangles
 };
 
@@ -42,12 +42,12 @@ enum class Via {
 /// Cancellable ends it sooner.
 using BakeProgress = std::function<void(std::string_view work, double done)>;
 
-/// Faces by the names of their FaceGroup, in which * stands for any text and ? for any character.
+/// Selects faces by the names of their FaceGroups. In a name, * stands for any text and ? for any one character.
 struct FaceSelection {
     std::vector<std::string> only{};       ///< bake these alone; all others still occlude
     std::vector<std::string> exclude{};    ///< neither bake these nor let them occlude
     std::vector<std::string> no_occlude{}; ///< do not let these occlude
-    bool opaque_only = false;              ///< do not let masked or blended ones occlude
+    bool opaque_only = false;              ///< do not let masked or blended faces occlude
 
     bool empty() const { return only.empty() && exclude.empty() && no_occlude.empty() && !opaque_only; }
 };
@@ -58,18 +58,18 @@ struct BakeOptions {
     /// The RMSE to meet. The planner chooses the method, rays, voxel and probes. No effect if `method` is named.
     Quality quality = Quality::good;
     Via via = Via::grid; ///< no effect if `method` is named
-    /// Any other RMSE to meet, in [0.001, 1), instead of `quality`.
+    /// The RMSE to meet, in [0.001, 1), instead of that of `quality`.
     std::optional<double> error{};
-    /// A method of the catalog; empty: chosen. Without `error` it runs with its defaults and `parameters`; with
-    /// `error`, its rays or samples are chosen. By default, guided casts up to 64 rays at few vertices, which have few
-    /// neighbours to share them with, and 32 where the voxel is larger than half the radius, because the field does not
-    /// help there.
+    /// A method of the catalog; if empty, the planner chooses one. Without `error`, the method runs with its defaults
+    /// and `parameters`; with `error`, its number of rays or samples is chosen to meet it. By default, guided casts
+    /// more rays, up to 64, on meshes with few vertices, where a vertex has few neighbours to share rays with, and at
+    /// least 32 where the voxel is larger than half the radius, because the field does not help there.
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};
     std::uint32_t seed = 0; ///< for the ray directions
 
-    FaceSelection faces{};         ///< all, unless given; vertices of faces that are not baked get ChannelInfo::missing
+    FaceSelection faces{};         ///< by default all; vertices without a baked face get ChannelInfo::missing
     std::vector<Mesh> occluders{}; ///< meshes that also occlude, in the same coordinates
     bool ground = false;           ///< the plane through the lowest vertex also occludes
     Vec3d up{0.0, 1.0, 0.0};       ///< normal of the ground; any length except 0
@@ -79,11 +79,11 @@ struct BakeOptions {
     NormalSource normals = NormalSource::automatic;
     SignChoice sign = SignChoice::automatic;
     /// Joins vertices within this distance of each other before the bake; finite and not in voxels. Closes gaps caused
-    /// by an exporter's rounding. Each vertex gets the values of its joined vertex.
+    /// by an exporter's rounding. Each vertex gets the values of the vertex that it became.
     std::optional<Length> weld{};
-    /// Of a mesh without faces: see surface_of_points().
+    /// The distance between the points of a mesh without faces: see PointOptions::point_size.
     std::optional<Length> point_size{};
-    std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: chosen
+    std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: automatic
     const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
     /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.
     bool keep_grid = false;
@@ -91,8 +91,8 @@ struct BakeOptions {
     /// Measure the error of the bake with reference rays, and fit `calibrated` to some of them. A planned bake needs
     /// this.
     bool pilot = true;
-    /// Wall-clock seconds from the call, > 0. A bake whose estimate clearly exceeds this is refused; a running bake is
-    /// not stopped.
+    /// Limit of the wall-clock seconds since the call, > 0. A bake whose estimate clearly exceeds this is refused; a
+    /// running bake is not stopped.
     std::optional<double> time_limit{};
     BakeProgress progress{};
     unsigned threads = 0; ///< 0: one per core
@@ -105,12 +105,12 @@ struct BakeSeconds {
     double occlusion = 0.0; ///< the method itself, in all attempts of the planner
 };
 
-/// The level sets that a bake used; without levels if it used none. For several parts: the largest voxel and the
+/// The level sets that a bake used; `levels` is 0 if it used none. For several parts, it has the largest voxel and the
 /// largest numbers of levels and bytes.
 struct GridSummary {
     double voxel = 0.0; ///< finest, scene units
     std::size_t levels = 0;
-    std::size_t bytes = 0; ///< with the grids of occluders
+    std::size_t bytes = 0; ///< including the grids of occluders
     Sign sign = Sign::solid;
     bool clustered = false; ///< built from clustered vertices, see GridOptions::cluster
 
@@ -125,10 +125,10 @@ struct Baked {
     /// Empty, or 1 for each vertex of a face that BakeOptions::faces selects.
     std::vector<std::uint8_t> selected;
 
-    std::string method;         ///< with its rays or samples: "guided:3"
+    std::string method;         ///< including its number of rays or samples: "guided:3"
     std::optional<int> samples; ///< rays or samples per vertex or point; empty if the method has neither
-    /// The share of the vertices or points where the method was evaluated. Where these are much denser than the detail
-    /// of the ao, the others are interpolated; only if there is an RMSE to meet.
+    /// The share of the vertices or points at which the method was evaluated; the others were interpolated. Less than 1
+    /// only if there is an RMSE to meet and the points are much denser than the detail of the ao.
     double evaluated = 1.0;
     std::string reason;           ///< why exact was planned despite Via::grid; empty otherwise
     std::optional<double> rmse;   ///< of ao, estimated by the pilot; empty without a pilot
@@ -150,18 +150,18 @@ struct Baked {
 /// is one line that names them.
 void check(const BakeOptions& options);
 
-/// Bakes the vertices of a mesh, or if it has no faces, its points on their surface (surface_of_points()). The values
-/// do not depend on the number of threads. Warnings and messages use the option names of the command line: --radius is
-/// BakeOptions::radius.
+/// Bakes the vertices of a mesh. Vertices of a mesh without faces are baked as points on the surface that
+/// surface_of_points() reconstructs. The values do not depend on the number of threads. Warnings and messages use the
+/// option names of the command line: --radius is BakeOptions::radius.
 ///
 /// Thread-safety: concurrent calls must have the same `threads`, since that limit applies to the whole process, and
 /// should not have a `time_limit`, since it is checked with the CPU time of the whole process.
 /// Cost: at quality good, from 1 µs per vertex on dense scans to about 5 µs on small meshes, plus 50 to 100 ms for the
 /// pilot.
-/// \throw InputError as check(), or if the mesh cannot be baked: no face has an area, or NormalSource::file without
-/// normals, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
-/// exceed half of the memory, MemoryError if the system has too little. TimeLimitError, see BakeOptions::time_limit.
-/// Any exception of BakeOptions::progress.
+/// \throw InputError as check(), if no face has an area, if the mesh lacks the normals that NormalSource::file
+/// requires, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
+/// exceed half of the memory, MemoryError if the system runs out of memory. TimeLimitError, see
+/// BakeOptions::time_limit. Any exception of BakeOptions::progress.
 Baked bake(const Mesh& mesh, const BakeOptions& options = {});
 
 inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
@@ -170,8 +170,8 @@ inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
 struct SurfacePoint {
     Vec3d position{0.0}; ///< scene units
     Vec3 normal{0.0f};   ///< any length; zero: the normal of the face
-    /// Index of the face that it lies on. Without one, the faces that it touches and whose normals are within 60° of
-    /// its own count as its own.
+    /// Index of the face that it lies on. Without one, the faces that it touches count as its own if their normals are
+    /// within 60° of its normal.
     std::uint32_t face = no_face;
 };
 
@@ -181,10 +181,10 @@ struct SurfacePoint {
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
 
 /// Splits faces where interpolating ao between vertices would be off by more than `error` (or the RMSE of `quality`),
-/// so that vertex values can represent ao: a floor of one quad under a box gets the shadow of the box. Edges up to 1/16
-/// of the radius, or of a quarter of the diagonal if that is less, are not split. The result has at most a million
-/// faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in tessellate().
-/// `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
+/// so that vertex values can represent ao: a floor of one quad under a box gets the shadow of the box. Edges are not
+/// split if they are at most 1/16 of the radius, or of a quarter of the diagonal if that is less. The result has at
+/// most a million faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in
+/// tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
 ///
 /// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
 /// as bake() and tessellate().
@@ -202,9 +202,9 @@ struct AddOptions {
     ColorEncoding encoding = ColorEncoding::srgb;
 };
 
-/// Adds the values that were baked at the vertices of `mesh` as attributes named like the channels, ao also as colours
-/// and `quality` (see ColorUse), and a comment with the method and its settings. Adds a warning to `mesh` if it keeps
-/// colours of its own. \return whether colours were added.
+/// Adds the values that were baked at the vertices of `mesh` as attributes with the names of the channels, and a
+/// comment with the method and its settings. Ao is also added as colours and `quality` (see ColorUse). Adds a warning
+/// to `mesh` if it keeps colours of its own. \return whether colours were added.
 /// \throw InputError if the numbers of values and vertices do not match. Cost: linear.
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options = {});
 

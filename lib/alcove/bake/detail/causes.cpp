@@ -70,7 +70,7 @@ std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const 
     std::string cause = method.needs_grid ? thin_walls_warning(target, occluders) : "";
     if (cause.empty())
         cause = contact_warning(target);
-    if (cause.empty() && task.error) // the caller says that the error is missed
+    if (cause.empty() && task.error) // the caller reports that the error is missed
         return warnings;
     if (cause.empty())
         cause = method.samples_are == SampleKind::rays

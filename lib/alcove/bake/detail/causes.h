@@ -6,9 +6,8 @@
 namespace alcove {
 
 /// Warnings about an RMSE that the pilot measured; none if it is small. Above 0.03: walls too thin for a grid that rays
-/// were traced through. Above 0.1: the most likely of these causes: a radius close to the offset at which rays start,
-/// file normals that point away from the front of their faces, thin walls, vertices on other faces. Cost: a few rays
-/// for each of up to 4,096 surfels.
+/// were traced through. Above 0.1: the most likely cause, thin walls or vertices on other faces; if it is neither,
+/// advice on the settings, unless there was an error to meet. Cost: a few rays for each of up to 4,096 surfels.
 std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const BakeTask& task, const Method& method,
                                    const Occluders& occluders);
 

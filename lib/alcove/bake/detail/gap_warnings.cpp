@@ -11,11 +11,11 @@
 namespace alcove {
 namespace {
 
-/// The number of vertices at whose position another one has a slightly different normal: each has the normal of its own
-/// faces, although the surface is smooth there.
+/// The number of vertices at whose position another vertex has a slightly different normal: each has the normal of only
+/// its own faces, although the surface is smooth there.
 std::size_t faceted_vertices(const Gaps& gaps, std::span<const Surfel> surfels) {
     constexpr float flat = 0.99985f, sharp = 0.766f; // cos 1° and cos 40°
-    constexpr std::ptrdiff_t most_compared = 64;     // the work is quadratic in the vertices of a place
+    constexpr std::ptrdiff_t most_compared = 64;     // the work is quadratic in the number of vertices at a position
     std::vector<std::array<std::uint32_t, 2>> by_place;
     for (const auto& [v, first] : gaps.repeated) {
         by_place.push_back({first, v});

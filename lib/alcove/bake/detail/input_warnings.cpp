@@ -74,7 +74,7 @@ void warn_of_offset(const BakeTarget& target, std::vector<std::string>& warnings
             target.radius, offset / target.radius));
 }
 
-/// Lengths in percent of the diagonal make no sense if a few faces determine it.
+/// Lengths in percent of the diagonal make no sense if a few outlying faces determine the diagonal.
 void warn_of_outliers(const BakeTarget& target, const Length& radius, std::vector<std::string>& warnings) {
     if (radius.unit != Length::Unit::diagonal)
         return;
@@ -100,7 +100,7 @@ std::vector<std::string> input_warnings(const BakeTarget& target, std::string_vi
             warn_of_hard_edges(target.mesh, warnings);
         }
     }
-    if (options.faces.empty()) // else most have none on purpose
+    if (options.faces.empty()) // with a selection, most lack normals on purpose
         warn_of_missing_normals(target.surfels, name, warnings);
     warn_of_outliers(target, options.radius, warnings);
     warn_of_offset(target, warnings);

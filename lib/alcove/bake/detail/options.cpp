@@ -15,7 +15,8 @@ void require(bool holds, const std::string& otherwise) {
         throw InputError(otherwise);
 }
 
-/// Whether rays and samples are fixed: a method is named without an error, or there is no ao whose error could be met.
+/// Whether the numbers of rays and samples are fixed: a method is named without an error, or there is no ao whose error
+/// could be met.
 bool is_fixed(const BakeOptions& options) {
     return !options.attributes.has(Channel::ao) || (!options.method.empty() && !options.error);
 }
@@ -89,7 +90,7 @@ BakeTask task_of(const BakeOptions& options) {
             task.settings.parameters.emplace_back("seed", options.seed);
         check_settings(needed, task.settings);
     } else if (options.attributes.has(Channel::ao_short) || options.attributes.has(Channel::ao_long)) {
-        methods_for(find_method("exact"), options.attributes); // throws with the name of the method that has them
+        methods_for(find_method("exact"), options.attributes); // throws, naming the method that gives them
     }
     return task;
 }

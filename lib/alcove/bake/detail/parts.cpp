@@ -80,7 +80,7 @@ class WholeResult {
         for (const auto& [label, by] : surfels_by_)
             if (by.second > most) {
                 most = by.second;
-                result_.choice = by.first; // of the largest number of surfels
+                result_.choice = by.first; // the choice for the most surfels
             }
         return std::move(result_);
     }

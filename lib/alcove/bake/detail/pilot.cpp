@@ -12,10 +12,10 @@ namespace alcove {
 namespace {
 
 constexpr std::uint32_t first_seed = 0x9d1f, second_seed = 0x51ab;
-constexpr std::size_t neighbours = 1024; // surfels along the Morton curve whose differences count
+constexpr std::size_t neighbours = 1024; // difficulty() compares neighbours among this many surfels on the Morton curve
 
-/// About `rays` rays per surfel. Up to four times the default, the total number of rays is constant. Beyond, it grows
-/// where half of `rays` would not be reached: the noise would hide the error.
+/// About `rays` rays per surfel. Up to four times the default, fewer surfels keep the total number of rays constant.
+/// Beyond that, the rays per surfel are doubled until they reach half of `rays`, since noise would hide the error.
 PilotOptions pilot_of(double rays) {
     constexpr int max_share = 4, max_rays = 4096;
     constexpr PilotOptions standard{};
@@ -28,7 +28,7 @@ PilotOptions pilot_of(double rays) {
     return options;
 }
 
-/// The RMSE without the noise of the reference.
+/// The RMSE with the noise of the reference removed.
 double without(double square, double noise2) {
     return std::sqrt(std::max(square - noise2, 0.0));
 }
@@ -59,7 +59,7 @@ Pilot::Pilot(std::span<const Surfel> surfels, std::span<const std::uint32_t> ord
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
     take_labels();
-    // The surfels are in the order of the curve.
+    // The surfels are in the order of the Morton curve.
     const std::size_t apart = std::max<std::size_t>(reference_.size() / neighbours, 1);
     double steps2 = 0.0;
     for (std::size_t i = apart; i < reference_.size(); ++i)
@@ -128,11 +128,11 @@ double Pilot::rmse_of_exact(int rays, std::uint32_t seed) const {
 }
 
 int Pilot::rays_for(double error, std::uint32_t seed) const {
-    // The error does not fall monotonically with the rays, so the result is a number that was tried.
+    // The error does not fall monotonically with the number of rays, so the result is a number that was tried.
     constexpr int max_attempts = 16;
-    // Rare rays that differ between runs leave a rest that no number of rays removes.
+    // Rare rays that differ between runs leave an error that no number of rays removes.
     constexpr double clearly_more = 1.5, hardly_less = 0.93;
-    constexpr int many_rays = 2048; // from there on, small steps would hide such a rest
+    constexpr int many_rays = 2048; // from there on, small steps would hide such an error
     int rays = 16, enough = most_rays, last_rays = most_rays;
     double last_rmse = 0.0;
     for (int attempt = 0; attempt < max_attempts && rays < enough; ++attempt) {

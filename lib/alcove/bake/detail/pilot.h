@@ -41,13 +41,13 @@ class Pilot {
 
     bool empty() const { return indices_.empty(); } ///< true if no surfel has a normal
     /// A scale to which the errors of guided and calibrated are roughly proportional: the geometric mean of the error
-    /// of 16 exact rays and of the RMS ao difference between neighbours divided by √2, among about a thousand surfels
-    /// along the Morton curve.
+    /// of 16 exact rays and the RMS difference of ao between neighbours divided by √2. The neighbours are those among
+    /// about a thousand surfels along the Morton curve.
     double difficulty() const { return difficulty_; }
-    /// The RMSE of the ao of all surfels that the constructor got, in their order.
+    /// The RMSE at all surfels of the constructor. `ao` has one value per surfel, in their order.
     double rmse(std::span<const float> ao) const;
-    /// The same for some of the surfels: `of` has the index of each value's surfel. std::nullopt if the pilot sampled
-    /// none of them.
+    /// The same for some of these surfels: `of` has the index of the surfel of each value. std::nullopt if the pilot
+    /// sampled none of them.
     std::optional<double> rmse(std::span<const float> ao, std::span<const std::uint32_t> of) const;
     /// The RMSE of a method that evaluates each surfel independently; `settings` include the radius. Cost: the method
     /// at the sampled surfels.

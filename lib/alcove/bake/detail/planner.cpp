@@ -13,14 +13,16 @@
 namespace alcove {
 namespace {
 
-// Errors vary by a third between meshes, so the rays that meet an error vary by a factor of two or three. If many rays
-// are planned, a third of them is tried first: about half the time they suffice or show that fewer than planned do.
+// Errors vary by a third between meshes, so the number of rays that meets an error varies by a factor of two or three.
+// If many rays are planned, a third of them is tried first: about half the time they suffice, or show that fewer rays
+// than planned do.
 constexpr int share_of_first_trial = 3, min_rays_of_trial = 4;
 
 // Standard deviation of log(measured / expected error) on meshes that the table was not measured on.
 constexpr double spread = 0.3;
 
-// With Via::grid, exact is planned only if the field costs more by this factor, and by PlanRequest::allowed_seconds.
+// With Via::grid, exact is planned only if the field costs this many times as much, and also
+// PlanRequest::allowed_seconds more.
 constexpr double allowed_ratio = 1.5;
 
 /// The probability that a plan with the expected error `rmse` meets `error`.
@@ -53,7 +55,7 @@ double tree_seconds(const PlanRequest& request) {
     return plan_table::tree_seconds_per_triangle * static_cast<double>(request.triangles);
 }
 
-/// Whether occlusion within the radius happens inside voxels.
+/// Whether the voxels are too large for the radius.
 bool is_too_coarse(const PlanRequest& request) {
     return !request.method && 2.0f * chosen_voxel(request.radius, GridOptions{}.largest_voxel) > request.radius;
 }
@@ -125,7 +127,7 @@ void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilo
         add(request, plan_of(row, row.samples, rmse_of(row)), row.seconds_per_surfel);
         if (!find_method(row.method).needs_mesh)
             continue;
-        // Between two ray counts of the table, the one whose expected error is slightly below the wanted one.
+        // The ray count between two of the table whose expected error is slightly below the wanted one.
         if (i > 0 && same_series(rows[i - 1], row) && rmse_of(row) < target && target < rmse_of(rows[i - 1])) {
             const plan_table::Row& fewer = rows[i - 1];
             const double way = std::log(target / rmse_of(fewer)) / std::log(rmse_of(row) / rmse_of(fewer));
@@ -135,7 +137,7 @@ void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilo
                 add(request, plan_of(row, samples, target),
                     fewer.seconds_per_surfel + way * (row.seconds_per_surfel - fewer.seconds_per_surfel));
         }
-        // Guided converges to exact: with as many rays its error is hardly larger, whatever the table says.
+        // Guided converges to exact: with as many rays as exact, its error is hardly larger, whatever the table says.
         if (i + 1 == rows.size() || !same_series(row, rows[i + 1]))
             for (const double more : {1.0, 1.3, 1.7, 2.25}) {
                 const int samples = std::min(static_cast<int>(std::ceil(more * exact_rays)), Pilot::most_rays);
@@ -218,7 +220,7 @@ const Planner::Candidate& Planner::cheap_trial_before(const Candidate& planned) 
     const Candidate* trial = &planned;
     double saved = 0.0;
     for (const Candidate& other : candidates_) {
-        // A method that missed may still meet the error with a little more.
+        // A method that missed the error is tried again only if its expected error is at most slightly too large.
         constexpr double little = 1.1;
         if (other.tried || (is_known(other.plan.choice.method) && other.plan.rmse > little * error_))
             continue;
@@ -235,7 +237,8 @@ const Planner::Candidate& Planner::cheap_trial_before(const Candidate& planned) 
     return *trial;
 }
 
-/// The same method with a share of its rays if it would take many and has no measured error yet; else `planned`.
+/// A plan of the same method with a share of the rays, if `planned` takes many and the method has no measured error
+/// yet; else `planned`.
 const Planner::Candidate& Planner::fewer_rays_before(const Candidate& planned) const {
     const int rays = planned.plan.choice.rays() / share_of_first_trial;
     if (planned.plan.largest_voxel == 0.0f || is_known(planned.plan.choice.method) || rays < min_rays_of_trial)

@@ -16,14 +16,14 @@ struct PlanRequest {
     Via via = Via::automatic;
     const Method* method = nullptr; ///< the only method to plan with: exact, guided or calibrated; null: any
     std::uint32_t seed = 0;
-    int exact_rays = 0; ///< of Pilot::rays_for() for this error and seed; 0: not known yet
+    int exact_rays = 0; ///< from Pilot::rays_for() for this error and seed; 0: not known yet
     std::size_t surfels = 0;
     std::size_t contacts = 0; ///< surfels that touch other faces
     std::size_t triangles = 0;
     double area = 0.0; ///< of the triangles, unit space
     /// The finest voxel of a grid that fits in memory, unit space, from finest_voxel() in grid/detail/plan.h.
     double finest_voxel = 0.0;
-    /// With Via::grid, exact is planned if the field costs over 50 % more, and over this many seconds more.
+    /// With Via::grid, exact is planned if the field costs over 50 % more, and also this many seconds more.
     double allowed_seconds = 0.3;
     bool has_grid = false; ///< a grid with the default GridOptions::largest_voxel exists anyway, at no extra cost
     ChannelSet wanted = Channel::ao;
@@ -52,9 +52,9 @@ class Planner {
     Planner(const PlanRequest& request, const Pilot& pilot);
 
     /// The cheapest untried plan that is expected to meet the error, or a trial before it. A trial is a plan that may
-    /// miss the error, but is so cheap that trying it saves time on average; its method has no measured error yet, or
-    /// its measured error suggests that the plan misses the error by at most a tenth. Where guided would need many
-    /// rays, the trial is guided with a third of them. \throw LimitError if no grid for the named method fits in
+    /// miss the error, but is so cheap that trying it saves time on average. Either its method has no measured error
+    /// yet, or the measured error suggests that the plan misses the target by at most a tenth. Where guided would need
+    /// many rays, the trial is guided with a third of them. \throw LimitError if no grid for the named method fits in
     /// memory.
     Plan next() const;
     /// The same without these trials: the plan that is most likely to end the search.
@@ -83,7 +83,7 @@ class Planner {
     bool is_known(const Method* method) const; // whether one of its candidates was tried
 
     double error_;
-    double spent_ = 0.0; ///< predicted seconds of what was tried in vain
+    double spent_ = 0.0; ///< predicted seconds of the plans tried in vain
     bool avoids_exact_;
     double allowed_seconds_;
     bool too_coarse_;                   // no voxel resolves the radius

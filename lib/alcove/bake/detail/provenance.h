@@ -13,7 +13,8 @@ inline constexpr std::string_view provenance = "alcove ";
 /// The comment of an earlier bake in the file; empty if there is none.
 std::string_view earlier_bake(const Mesh& mesh);
 
-/// Whether the vertex colours are the ao of an earlier bake: grey, and a PLY has `quality`, which a bake adds too.
+/// Whether the vertex colours are the ao of an earlier bake: they are grey, and a PLY also has the `quality` that a
+/// bake adds.
 bool has_baked_colors(const Mesh& mesh);
 
 }

@@ -47,7 +47,7 @@ void for_each_match(const Mesh& mesh, const std::vector<std::string>& patterns, 
 }
 
 bool matches(std::string_view name, std::string_view pattern) {
-    // Remembers the last *, and lets it stand for one more character after each failure.
+    // Remembers the last *, and lets it match one more character after each failure.
     std::size_t n = 0, p = 0, star = std::string_view::npos, resume = 0;
     while (n < name.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

@@ -10,17 +10,17 @@
 
 namespace alcove {
 
-/// Thread-safe functions of the index of a point.
+/// Functions of a point's index, all thread-safe.
 struct SurfacePoints {
     std::size_t count;
     std::function<SurfacePoint(std::size_t)> point;
-    std::function<std::uint32_t(std::size_t)> face; ///< that of the point
-    /// If set, called with the ao of all points: returns further points, which get the same settings. Only for a bake
-    /// with an error to meet.
+    std::function<std::uint32_t(std::size_t)> face; ///< of the point
+    /// If set, it is called with the ao of all points and returns further points, which are baked with the same
+    /// settings. Only for a bake with an error to meet.
     std::function<std::vector<SurfacePoint>(std::span<const float> ao)> more{};
 };
 
-/// As bake() of these points, and of those of `more` behind them, which Baked::evaluated does not count.
+/// As bake() of these points followed by those of `more`, which Baked::evaluated does not count.
 Baked bake_points(const Mesh& mesh, const SurfacePoints& points, const BakeOptions& options);
 
 }

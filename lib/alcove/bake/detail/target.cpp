@@ -27,16 +27,17 @@ OccluderNeeds needs_of(const Method& method, ChannelSet wanted, bool has_contact
 }
 
 /// Refuses a bake that would clearly miss the deadline. Estimates its time from a trial of 128 surfels spread over the
-/// mesh and doubles their number while the outcome is uncertain. All trials together bake at most a quarter of the
+/// mesh and doubles their number as long as the outcome is uncertain. All trials together bake at most a quarter of the
 /// surfels; fewer than about a thousand surfels are not checked.
 void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
                 const Occluders& occluders, const MethodChoice& choice, Settings settings, ChannelSet wanted) {
     constexpr std::size_t max_batches = 64, min_stride = 8;
-    constexpr int max_samples = 1024; // of the trial; the time is proportional to them
-    constexpr double certain = 2.0;   // ratio to the limit, in either direction
+    constexpr int max_samples = 1024; // of the trial; its time is proportional to their number
+    constexpr double certain = 2.0;   // ratio to the limit, above or below it
     if (!deadline.is_set())
         return;
-    // No fit in the trial: it takes longer than the trial, and its time does not grow with the number of surfels.
+    // The trial omits the fit, which takes longer than the trial and whose time does not grow with the number of
+    // surfels.
     settings.labels.reset();
     double samples_left_out = 1.0;
     if (choice.samples > max_samples) {
@@ -44,7 +45,7 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::
         samples_left_out = static_cast<double>(choice.samples) / max_samples;
     }
     const std::size_t batches = order.size() / SurfelBatch::capacity;
-    double seconds = 0.0; // of all surfels
+    double seconds = 0.0; // for all surfels
     for (std::size_t count = 2; count <= max_batches && count * min_stride <= batches; count *= 2) {
         std::vector<Surfel> some;
         for (std::size_t k = 0; k < count; ++k) {
@@ -65,7 +66,8 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::
     });
 }
 
-/// The same for a plan. Uses the planner's cost table, so it assumes a machine as fast as the one that measured it.
+/// The same for a plan. Uses the planner's cost table, so it assumes a machine as fast as the one that the table was
+/// measured on.
 void check_time(const Deadline& deadline, const Plan& plan, const PlanRequest& request, const Pilot& pilot) {
     deadline.check(plan.seconds / static_cast<double>(thread_count()), [&](double share) -> std::string {
         for (PlanRequest other = request; const double error : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1}) {
@@ -147,7 +149,7 @@ class TargetBake {
     }
 
     static bool is_planned(const Method& method) {
-        return method.needs_mesh || method.name == "calibrated"; // the cost table has these
+        return method.needs_mesh || method.name == "calibrated"; // the cost table has only these
     }
 
     /// Whether there is a grid regardless of the plan, so the planner cannot choose its voxel.
@@ -184,7 +186,8 @@ class TargetBake {
         return *pilot_;
     }
 
-    /// Finds the contacts of the surfels that the pilot samples, and estimates the number of all.
+    /// Finds the contacts of the surfels that the pilot samples, and from them estimates how many surfels have
+    /// contacts.
     void find_contacts_of_sample(const std::vector<std::uint32_t>& indices) {
         std::vector<Surfel> some = pick(target_.surfels, indices);
         find_contacts(indices, some);
@@ -218,7 +221,7 @@ class TargetBake {
         result_.choice = choice;
     }
 
-    /// Whether interpolation pays on a small sample.
+    /// Whether interpolation pays off on a small sample.
     bool pays(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
         constexpr std::size_t runs = 8, length = 2048;
         const std::vector<MethodRun> methods = runs_for(*plan.choice.method, settings_of(plan.choice), Channel::ao);
@@ -235,8 +238,8 @@ class TargetBake {
         return interpolated.has_value();
     }
 
-    /// Evaluates a plan at part of the surfels, see evaluate_interpolated(), and the attributes that it cannot
-    /// interpolate at all of them. Keeps values that meet the error. \return the RMSE; std::nullopt if too many surfels
+    /// Evaluates a plan at some of the surfels, see evaluate_interpolated(), and at all of them the attributes that it
+    /// cannot interpolate. Keeps the values if they meet the error. \return the RMSE; std::nullopt if too many surfels
     /// would have to be evaluated.
     std::optional<double> interpolate(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
         const Method& method = *plan.choice.method;
@@ -274,8 +277,8 @@ class TargetBake {
         return rmse;
     }
 
-    /// Interpolates most of many surfels if that is expected to be faster than the plan for all of them, and meets the
-    /// error.
+    /// Interpolates most surfels if there are many, if this is expected to be faster than evaluating the plan at all of
+    /// them, and if the result meets the error. \return whether it did.
     bool bake_interpolated(const PlanRequest& request, const Pilot& pilot, double seconds_of_all) {
         constexpr double usual_share = 0.15, max_share = 0.4, clearly_faster = 0.8;
         constexpr double seconds_per_surfel = 1.2e-7; // of the interpolation, on the machine of the planner's table
@@ -302,7 +305,7 @@ class TargetBake {
                 if (!rmse || *rmse <= request.error)
                     return rmse.has_value();
                 planner.update(plan, *rmse);
-            } catch (const LimitError&) { // the plan for all surfels handles it
+            } catch (const LimitError&) { // the plan for all surfels handles this
                 return false;
             }
         }
@@ -317,15 +320,15 @@ class TargetBake {
         result_.seconds.pilot += watch.lap();
     }
 
-    /// Whether the field tells where occluders within the radius are.
+    /// Whether the field resolves the occluders within the radius.
     bool resolves_radius() {
         const Occluders occluders = occluders_.get({.field = true, .rays = false}, GridOptions{}.largest_voxel);
         return occluders.field().resolution() <= 0.5f * target_.radius;
     }
 
-    /// The rays that a surfel needs if it has few others to share rays with, or if the field does not help.
+    /// The number of rays for a surfel that has few others to share rays with, or where the field does not help.
     int rays_for_few_or_unresolved() {
-        constexpr std::size_t shared = 1 << 17; // rays of all surfels, which take some hundredths of a second
+        constexpr std::size_t shared = 1 << 17; // total of all surfels, which takes some hundredths of a second
         constexpr std::size_t most = 64;
         constexpr int unresolved = 32;
         const auto rays = static_cast<int>(std::min(shared / std::max<std::size_t>(target_.surfels.size(), 1), most));
@@ -362,10 +365,11 @@ class TargetBake {
     }
 
     static constexpr std::size_t sample_stride = 8;
-    static constexpr double sample_tolerance = 1.08; // errors of a sample are right to a tenth
+    static constexpr double sample_tolerance = 1.08; // the error of a sample is accurate to about a tenth
 
-    /// The error of a plan of the field on an eighth of many surfels, so that a plan that misses costs little. They are
-    /// runs along the Morton curve, since neighbours share rays. Nothing for few surfels, or if there is no such grid.
+    /// The error of a plan that uses the field on an eighth of the surfels, so that a plan that misses the target costs
+    /// little. The sample is runs along the Morton curve, since neighbours share rays. std::nullopt if there are few
+    /// surfels, or if the grid does not fit in memory.
     std::optional<double> rmse_on_sample(const Plan& plan, bool has_grid) {
         constexpr std::size_t many_surfels = 100'000, runs = 64, stride = sample_stride;
         if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
@@ -380,7 +384,7 @@ class TargetBake {
                                                    settings_of(plan.choice), Channel::ao)[Channel::ao];
             result_.seconds.occlusion += watch.lap();
             return pilot_->rmse(ao, sample_);
-        } catch (const LimitError&) { // the bake itself finds out
+        } catch (const LimitError&) { // the bake itself reports this
             return {};
         }
     }

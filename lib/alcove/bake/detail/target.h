@@ -12,7 +12,7 @@ namespace alcove {
 
 /// Settings that all targets of a bake share.
 struct BakeTask {
-    const Method* method = nullptr; ///< null: planned
+    const Method* method = nullptr; ///< null: the planner chooses
     Settings settings{};            ///< of `method`; the radius is the target's
     std::optional<double> error{};  ///< RMSE to meet; empty: fixed settings
     ChannelSet attributes = Channel::ao;
@@ -31,13 +31,14 @@ struct BakeTarget {
     float radius;                    ///< unit space; may be infinite
     VoxelizeOptions voxelizing;      ///< unit space
     const GridStack* grid = nullptr; ///< in the same frame; used instead of voxelizing
-    /// Voxel of the grids of occluders, scene units; 0: chosen; empty: the voxel of the target's own grid.
+    /// Voxel of the grids of occluders, scene units; 0: chosen automatically; empty: the voxel of the target's own
+    /// grid.
     std::optional<double> occluder_voxel{};
     PilotOptions pilot_share{}; ///< only `surfels` is used: the maximum for the pilot of this target
-    double share = 1.0;         ///< of the surfels of the whole bake
+    double share = 1.0;         ///< share of all surfels of the bake
     IsOwnFace is_own_face = uses_vertex;
-    /// If set, called with the ao of all surfels: returns further ones, whose values follow. They count as the next for
-    /// is_own_face.
+    /// If set, it is called with the ao of all surfels and returns further ones, whose values are appended. For
+    /// is_own_face, their indices follow those of `surfels`.
     std::function<std::vector<Surfel>(std::span<const float> ao)> more{};
 };
 
@@ -54,7 +55,7 @@ struct TargetResult {
 };
 
 /// Bakes with the method of the task or with the cheapest plan. If the pilot measures an RMSE above the one to meet,
-/// plans and bakes again. Finds the contacts of the surfels. \throw as bake()
+/// plans and bakes again. Also finds the contacts of the surfels. \throw as bake()
 TargetResult bake_target(BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
                          const BakeProgress& progress);
 
