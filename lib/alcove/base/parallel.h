@@ -10,11 +10,11 @@ namespace alcove {
 /// Called with the share of the work that is done, in [0, 1]; never from two threads at once.
 using Progress = std::function<void(double done)>;
 
-/// Thrown by cancelled work. No std::exception, so that no handler of errors takes it for one.
+/// Thrown by cancelled work. Not a std::exception, so that error handlers do not catch it.
 struct Cancelled {};
 
-/// While alive, the work of this thread throws Cancelled once `requested` is true: at the next block of parallel_for(),
-/// on any thread, or the next check_cancelled().
+/// While this exists, the work of this thread throws Cancelled once `requested` is true: at the next block of
+/// parallel_for(), on any thread, or the next check_cancelled().
 class Cancellable {
   public:
     explicit Cancellable(const std::atomic<bool>* requested); ///< null: never cancelled
@@ -38,7 +38,7 @@ void parallel_for(std::size_t count, std::size_t grain,
 /// The number of threads that work on a parallel loop, at most one per core; ≥ 1.
 std::size_t thread_count();
 
-/// While alive, at most `threads` threads work on parallel loops; 0 means one per core.
+/// While this exists, at most `threads` threads work on parallel loops; 0 means one per core.
 class ThreadLimit {
   public:
     explicit ThreadLimit(unsigned threads);

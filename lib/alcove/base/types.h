@@ -73,7 +73,7 @@ struct Ray {
     Vec3 direction; ///< unit length
 };
 
-/// A set of the values of an enumeration, which has at most 32 values, numbered from 0.
+/// A set of values of an enumeration that has at most 32 values, numbered from 0.
 template <class E>
 class EnumSet {
   public:
@@ -104,13 +104,13 @@ struct Length {
     Length(const std::string& text);
     Length(const char* text) : Length(std::string(text)) {}
 
-    /// In unit space, where the diagonal is 1. \throw InputError for voxels where `voxel` (unit space) is 0,
+    /// In unit space, where the diagonal is 1. \throw InputError for a length in voxels if `voxel` (unit space) is 0,
     /// and for lengths that make no sense with that diagonal.
     float to_unit(double diagonal, float voxel = 0.0f) const;
 };
 
-// The exceptions thrown at the boundaries of the library. Each message is one line that names the file, the place in it
-// and the fix.
+// The exceptions thrown at the boundaries of the library. Each message is one line that names the file, the location in
+// it and the fix.
 
 /// The input is invalid: a file that cannot be read or is damaged, a mesh without faces, a grid of another type.
 struct InputError : std::runtime_error {

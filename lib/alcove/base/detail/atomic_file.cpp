@@ -21,7 +21,7 @@
 namespace alcove {
 namespace {
 
-/// A path that a signal handler can read: in static memory.
+/// A path in static memory, which a signal handler can read.
 struct Unfinished {
     std::atomic<int> state{0}; // 0 free, 1 being written, 2 a path
     std::array<char, PATH_MAX> path{};
@@ -52,7 +52,7 @@ void forget(int slot) {
     throw IoError(target.string() + ": " + what + ": " + std::strerror(reason));
 }
 
-/// Refuses a target that is not a regular file, or a link without a file. \return whether it exists.
+/// Refuses a target that is not a regular file, and a link that points to no file. \return whether the target exists.
 bool check_target(const std::filesystem::path& target, struct stat& old) {
     const bool exists = ::stat(target.c_str(), &old) == 0;
     if (!exists && errno == ELOOP)
@@ -140,7 +140,7 @@ void AtomicFile::write(std::string_view bytes) {
 
 void AtomicFile::commit() {
     check_cancelled();
-    // First the contents, so that the name never belongs to a file that a power cut left incomplete.
+    // Sync the contents first, so that the name never belongs to a file that a power cut left incomplete.
     const bool synced = sync(descriptor_);
     if (!synced || ::close(std::exchange(descriptor_, -1)) != 0)
         fail(target_, "cannot be written");

@@ -22,7 +22,7 @@ std::uint64_t hashed(const Position& p) {
     return hash ^ (hash >> 29);
 }
 
-/// The same for triangles with the same corners.
+/// A hash that is the same for triangles with the same corners.
 template <class Position>
 std::uint64_t hashed(std::span<const Position> positions, const Triangle& t) {
     return hashed(positions[t[0]]) + hashed(positions[t[1]]) + hashed(positions[t[2]]);

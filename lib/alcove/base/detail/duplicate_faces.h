@@ -20,8 +20,8 @@ template <class Position>
 std::vector<Triangle> without_duplicate_faces(std::span<const Position> positions, std::span<const Triangle> triangles,
                                               Duplicates duplicates = Duplicates::of_either_side);
 
-/// Whether a sample of the triangles, the same in each call, has duplicates. It misses sets that are smaller than a few
-/// ten-thousandths of all triangles. Cost: at most about two milliseconds.
+/// Whether a sample of the triangles, the same in each call, has duplicates. It misses duplicates that make up less
+/// than a few ten-thousandths of all triangles. Cost: at most about two milliseconds.
 bool has_duplicates_in_sample(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 }

@@ -33,8 +33,8 @@ class InputFile {
     std::size_t done_ = 0; ///< bytes read
 };
 
-/// For libraries that open the file themselves and move back and forth in it. \throw InputError unless it is a regular
-/// file whose first byte can be read, or empty; LimitError if it is too large.
+/// For libraries that open the file themselves and seek in it. \throw InputError unless it is a regular file that is
+/// empty or whose first byte can be read; LimitError if it is too large.
 void check_input_file(const std::filesystem::path& file);
 
 }

@@ -9,7 +9,7 @@ double memory_limit();
 void limit_memory(double bytes);
 
 /// Bytes that may be read from one file or pipe. By default half of memory_limit(), since a mesh takes about twice the
-/// size of its file, and at most 4 GB.
+/// size of its file, but at most 4 GB.
 double read_limit();
 void limit_reading(double bytes);
 

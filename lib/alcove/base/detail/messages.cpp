@@ -9,7 +9,7 @@
 namespace alcove {
 namespace {
 
-/// Byte-order marks, blanks without width, line separators and marks of the writing direction.
+/// Byte-order marks, zero-width spaces, line separators and marks of the writing direction.
 bool is_invisible(unsigned code) {
     return code == 0xfeff || (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2060 && code <= 0x2069);
@@ -35,7 +35,7 @@ std::size_t printable_length(std::string_view text) {
     return code >= smallest[length] && code <= 0x10ffff && !surrogate && !is_invisible(code) ? length : 0;
 }
 
-/// Moves the first character of `from`, or '?' for its first byte.
+/// Moves the first character of `from` to `to`, or '?' for its first byte if that character must not be printed.
 void move_character(std::string_view& from, std::string& to) {
     const std::size_t length = printable_length(from);
     to += length > 0 ? from.substr(0, length) : "?";

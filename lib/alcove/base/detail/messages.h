@@ -17,8 +17,8 @@ std::string in_quotes(std::string_view text);
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t count);
 
-/// A positive number to some significant digits, from 1e-15 to 1e15 without an exponent: "0.0000123", "4.3",
-/// "53,000,000".
+/// A positive number rounded to `digits` significant digits, without an exponent from 1e-15 to 1e15: "0.0000123",
+/// "4.3", "53,000,000".
 std::string rounded(double number, int digits);
 
 /// A number of bytes to three digits: "20 bytes", "1.5 kB", "512 MB", "4,300 GB".

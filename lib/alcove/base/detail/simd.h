@@ -5,7 +5,7 @@
 
 namespace alcove {
 
-/// The best one of this processor that the code was compiled for, such as "AVX2". Chosen at run time.
+/// The best of those that this processor supports and the code was compiled for, such as "AVX2". Chosen at run time.
 std::string simd_target();
 
 }

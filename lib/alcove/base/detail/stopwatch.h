@@ -7,7 +7,7 @@ namespace alcove {
 
 class Stopwatch {
   public:
-    /// Seconds since it was made or last read.
+    /// Seconds since construction or the last call.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
