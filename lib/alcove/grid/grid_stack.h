@@ -54,9 +54,9 @@ struct GridStack {
     /// Levels finer than `levels`, from finest to coarsest, that exist only near walls and gaps thinner than two voxels
     /// of the finest level. A leaf has values if the next leaves along the axes exist, too.
     std::vector<LevelSet> partial{};
-    std::optional<Lattice> lattice{};  ///< of all voxel centres, with index (0, 0, 0) at its origin; if requested
+    std::optional<Lattice> lattice{};  ///< of all voxel centres, with index (0, 0, 0) at its origin; set if requested
     bool clustered = false;            ///< whether GridOptions::cluster reduced the triangles
-    std::vector<std::string> sources;  ///< the grids of the file that it was read from
+    std::vector<std::string> sources;  ///< the names of its grids in the file that it was read from
     std::string creator;               ///< the program that wrote the file, if read from one that names it
     std::vector<std::string> warnings; ///< messages about what was lost in voxelization or reading
 

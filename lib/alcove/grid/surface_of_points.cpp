@@ -32,10 +32,10 @@ std::vector<std::string> warnings_of(const PointCloud& cloud) {
     return warnings;
 }
 
-/// Warns of points that are much denser than the voxel, which cannot show their surface.
+/// Warns if points are much denser than the voxel, which is then too coarse for their detail.
 void warn_of_detail(const PointCloud& cloud, float voxel, std::vector<std::string>& warnings) {
     constexpr float dense = 0.125f;        // spacings per voxel
-    constexpr float least_spacing = 2e-6f; // floats in unit space do not resolve less
+    constexpr float least_spacing = 2e-6f; // floats in unit space resolve no less
     const auto lost =
         static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(),
                                                [&](const CloudPoint& point) { return point.spacing < dense * voxel; }));
@@ -106,7 +106,7 @@ PointSurface surface_of_points(const Mesh& points, const PointOptions& options) 
         static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(), [&](const CloudPoint& point) {
             return result.normals[point.source] == Vec3(0.0f);
         }));
-    constexpr std::size_t few = 100; // one of a hundred is no news: borders and corners
+    constexpr std::size_t few = 100; // one in a hundred is normal at borders and corners
     if (lost > cloud.points.size() / few)
         warnings.push_back(counted(lost, "point has", "points have") +
                            " no surface and got ao = 1: their neighbours are too far away; give a larger --point-size");

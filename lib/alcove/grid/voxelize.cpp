@@ -64,10 +64,10 @@ GridOptions with_voxel_of_lattice(GridOptions options, const Frame& frame) {
     return options;
 }
 
-/// Partial levels pay where few voxels are unresolved. Elsewhere, a finer voxel serves better.
+/// Partial levels pay off where few voxels are unresolved. Otherwise, a finer voxel is better.
 constexpr double most_unresolved = 0.2;
 
-/// As many bricks again as the finest level has, and half of that: at most about three times the time and memory.
+/// At most 1.5 times the bricks of the finest level, for at most about three times the time and memory.
 std::size_t bricks_for_partial_levels(std::size_t finest, const LevelPlan& plan) {
     return static_cast<std::size_t>(
         std::min(plan.spare_bytes / bytes_per_partial_brick, 1.5 * static_cast<double>(finest)));
@@ -91,7 +91,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     const LevelPlan plan = plan_levels(mesh, triangles, with_voxel_of_lattice(options.grid, stack.frame));
     const Placing placing = place(box, stack.frame, plan, stack.lattice);
     const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, placing);
-    // The sign uses all triangles, distances only those that clustering keeps.
+    // The sign is computed from all triangles, distances only from those that clustering keeps.
     const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
     const bool is_balanced = balanced(triangles);
@@ -117,7 +117,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
         stack.warnings.push_back(fmt::format(
             "the voxel is {} times the radius, which is too coarse to resolve occlusion: use --voxel {}% or less",
             rounded(plan.voxel / options.grid.radius, 2), rounded(12.5 * options.grid.radius, 2)));
-    // The shares of the time are rough.
+    // The shares of the time are approximate.
     const auto done = [&](double share) {
         if (options.progress)
             options.progress(share);

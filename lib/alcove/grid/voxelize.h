@@ -19,13 +19,13 @@ struct GridOptions {
     float voxel = 0.0f;
     /// Sets the finest voxel instead of `voxel`, and puts all voxel centres on the lattice.
     std::optional<Lattice> lattice{};
-    /// Upper limit of a chosen voxel, unit space, > 0; the memory limit may still require a larger one.
+    /// Upper limit of an automatic voxel, unit space, > 0; the memory limit may still require a larger one.
     float largest_voxel = 1.0f / 256.0f;
     /// Outer band width of every level, voxels, at least 3. map() is correct up to one voxel less.
     float outer_band = 5.0f;
     /// Inner band width of every level of a solid, voxels, at least 2. Occlusion never samples deeper.
     float inner_band = 2.0f;
-    /// If the voxel is chosen, add partial levels near walls and gaps thinner than two voxels (GridStack::partial).
+    /// If the voxel is automatic, add partial levels near walls and gaps thinner than two voxels (GridStack::partial).
     bool refine = true;
     /// Where triangles are far smaller than voxels, voxelize a surface with fewer triangles: usually a few
     /// hundredths of a voxel away from the original, √3 voxels at most.
@@ -44,7 +44,7 @@ enum class SignChoice {
 struct VoxelizeOptions {
     GridOptions grid;
     SignChoice sign = SignChoice::automatic;
-    bool warns_of_faces = true; ///< that are flipped or face inward; of little use for a reconstructed surface
+    bool warns_of_faces = true; ///< about flipped or inward faces; of little use for a reconstructed surface
     /// Called a few times with the share of the work that is done, in [0, 1], on the calling thread.
     std::function<void(double done)> progress = {};
 };
@@ -63,7 +63,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
 /// The sign that voxelize() chooses by default. Cost: about 10 ns per triangle. \throw LimitError as voxelize().
 Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles);
 
-/// Meshes the zero isosurface of the finest level in scene units, faces outward: quads, and triangles too if
+/// Meshes the zero isosurface of the finest level in scene units, with faces outward: quads, and triangles too if
 /// `adaptivity`, in [0, 1], is above 0 and merges flat regions. Uses OpenVDB's volumeToMesh, which is based on dual
 /// contouring (Ju et al. 2002). The mesh has a hole where the band ends at the surface.
 /// \throw InputError if no distance changes sign, or if the stack is a sheet, whose back is not a zero isosurface.
@@ -80,25 +80,24 @@ Mesh mesh_zero_surface(const Sampler& sample, float voxel);
 
 struct PointOptions {
     std::optional<Length> point_size{}; ///< distance between neighbouring points; empty: measured
-    /// The voxel of the reconstruction need not be smaller than this, unit space. It is otherwise 0.9 times the point
-    /// size, and never more than 3 times.
+    /// Smallest useful voxel of the reconstruction, unit space; clamped to between 0.9 and 3 times the point size.
     float least_voxel = 0.0f;
 };
 
 /// The surface of points.
 struct PointSurface {
     Mesh mesh; ///< triangles; Mesh::warnings counts points that were left out and normals that were estimated
-    /// Where the points lie on it, scene units, and their normals. Zero normals: outliers, points that are not finite, and
-    /// points where there is no surface.
+    /// The points projected onto the surface, scene units, and their normals. Normals are zero for outliers, for points
+    /// that are not finite, and where there is no surface.
     std::vector<Vec3d> positions;
     std::vector<Vec3> normals;
     std::vector<std::uint32_t> faces; ///< on which they lie
 };
 
-/// Reconstructs the surface of a mesh without faces, whose vertices are points of a scan, with or without normals. Holes
-/// of up to about twice the point size are closed, and larger ones stay open. Outliers are left out. Missing normals are
-/// estimated. Cost: 2 to 4 µs per point on one thread. \throw InputError if the points are too few, or no surface is
-/// found; LimitError if it exceeds the memory limit.
+/// Reconstructs the surface of a mesh without faces, whose vertices are points of a scan, with or without normals.
+/// Holes of up to about twice the point size are closed, and larger ones stay open. Outliers are left out. Missing
+/// normals are estimated. Cost: 2 to 4 µs per point on one thread. \throw InputError if the points are too few, or no
+/// surface is found; LimitError if it exceeds the memory limit.
 PointSurface surface_of_points(const Mesh& points, const PointOptions& options = {});
 
 /// The mesh itself, or if it has no faces, the surface of its points.

@@ -17,7 +17,7 @@ namespace {
 /// Meshes the zero isosurface of a grid. `place` maps index coordinates to positions; if it mirrors, faces are turned.
 template <class Place>
 Mesh mesh_of(const openvdb::FloatGrid& grid, float adaptivity, const Place& place, bool mirrors = false) {
-    // OpenVDB makes floats, which resolve little far from the origin.
+    // OpenVDB returns positions as floats, which are inaccurate far from the origin.
     openvdb::CoordBBox leaves;
     const openvdb::Coord low = grid.tree().evalLeafBoundingBox(leaves)
                                    ? leaves.min() & ~(int(openvdb::FloatTree::RootNodeType::ChildNodeType::DIM) - 1)

@@ -66,7 +66,7 @@ HWY_INLINE Index3 octant(const Index3& low, int size, int i) {
     return low + size * Index3(i >> 2, i >> 1 & 1, i & 1);
 }
 
-/// Buffers of the search of a brick. Each thread reuses them, as allocating them takes longer than filling them.
+/// Buffers for the search of a brick. Each thread reuses them, as allocating them takes longer than filling them.
 struct Workspace {
     Sieve of_brick, of_block; // a block of 4³
     LeafSearch leaves;

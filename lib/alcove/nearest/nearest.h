@@ -1,9 +1,9 @@
 /// Finds the exact nearest triangle to each voxel of a brick.
 ///
-/// Each block of voxels keeps the tree nodes that may contain the nearest triangle of any of its voxels; a known surface
-/// point near the block's centre excludes the others. Each of its eight octants keeps a subset of these nodes, and so
-/// on down to blocks of 2³ voxels, which search the nodes that remain. Nothing is approximated, so the accuracy depends
-/// neither on the order of the triangles nor on the shape of the surface.
+/// Each block of voxels keeps the tree nodes that may contain the nearest triangle of any of its voxels; a known
+/// surface point near the block's centre excludes the others. Each of its eight octants keeps a subset of these nodes,
+/// and so on down to blocks of 2³ voxels, which search the nodes that remain. Nothing is approximated, so the accuracy
+/// depends neither on the order of the triangles nor on the shape of the surface.
 #pragma once
 
 #include "alcove/nearest/detail/triangle_tree.h"

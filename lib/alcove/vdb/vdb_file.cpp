@@ -187,7 +187,7 @@ GridStack stack_of(const std::vector<VdbGrid>& grids, const std::filesystem::pat
     }
 }
 
-/// The grids of a selection, never none, and their names.
+/// The grids of a selection, at least one, and their names.
 struct Chosen {
     std::vector<VdbGrid> grids;
     std::vector<std::string> names;

@@ -44,7 +44,7 @@ struct GridSelection {
 /// becomes a single level, in the frame of the union's active voxels. Several stacks, or a stack and other level sets,
 /// are also read as one union, using the finest level of each stack.
 ///
-/// All transforms except frustums are supported. Level sets that share a lattice, and those turned by 90° or mirrored,
+/// All transforms except frustums are supported. Level sets that share a lattice, and those rotated by 90° or mirrored,
 /// keep their values. Others are interpolated on the lattice of the smallest voxels, which rounds sharp edges by a
 /// fraction of a voxel; where voxels are not cubes, the zero isosurface is voxelized again. See detail/join.h.
 ///

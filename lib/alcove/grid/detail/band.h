@@ -35,7 +35,7 @@ struct BandBrick {
     float values[brick_volume];
     std::uint64_t active[brick_size] = {}; ///< one word per x-slice, one bit per voxel in the band
     std::size_t count = 0;                 ///< number of voxels in the band
-    /// The nearest triangle, where the distance was not known before and is in the band.
+    /// The nearest triangle; set where the distance was not known before and is in the band.
     std::array<std::uint32_t, brick_volume> triangle;
 };
 

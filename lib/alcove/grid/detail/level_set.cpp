@@ -59,7 +59,7 @@ struct Storage {
     double value_scale;
     Index3 first{0};                 ///< index of the band's origin, in voxels of stride 1
     const LevelSet* finer = nullptr; ///< whose distances are reused
-    bool keeps_empty = false;        ///< bricks without a voxel in the band, too
+    bool keeps_empty = false;        ///< also keep bricks without a voxel in the band
 };
 
 LevelSet store(const Band& band, std::span<const BandBlock> blocks, const Storage& to,

@@ -23,7 +23,8 @@ struct NearestOfBrick {
 LevelSet level_set(const Band& band, int stride, double value_scale, const Index3& first = Index3(0),
                    const LevelSet* finer = nullptr, std::vector<NearestOfBrick>* nearest = nullptr);
 
-/// A level of some bricks, with a leaf for each, even where no voxel is in the band. Elsewhere, values are unknown.
+/// A level that consists of some bricks, with a leaf for each, even where no voxel is in the band. Elsewhere, values
+/// are unknown.
 LevelSet partial_level_set(const Band& band, std::span<const BandBlock> bricks, int stride, double value_scale);
 
 }

@@ -11,9 +11,9 @@
 namespace alcove {
 namespace {
 
-constexpr double around = 1.5; // voxels of the finest whole level, about unresolved ones
+constexpr double around = 1.5; // the distance around unresolved voxels, in voxels of the finest whole level
 
-using Bricks = std::vector<Index3>; // lowest voxels, in order, each once
+using Bricks = std::vector<Index3>; // the lowest voxel of each brick, sorted, without duplicates
 
 bool before(const Index3& a, const Index3& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
@@ -120,7 +120,8 @@ std::vector<Triangle> touching(const Surface& surface, const Cells& cells) {
     return found;
 }
 
-/// For the search of nearest triangles, the positions, and the crossings of columns that are 1 / `finest` voxels apart.
+/// Bytes for the search for nearest triangles, for the positions, and for the crossings of columns that are 1 /
+/// `finest` voxels apart.
 double bytes_to_build(const Surface& surface, std::span<const Triangle> nearest, std::span<const Triangle> crossed,
                       int finest) {
     constexpr double bytes_per_crossing = 60.0;
@@ -147,7 +148,7 @@ std::vector<BandBlock> blocks_of(const Band& band, const Bricks& bricks, int str
         blocks.push_back(std::move(block));
     }
     for (std::size_t i = 0; i < bricks.size(); ++i)
-        if (!found[i]) // no triangle is near, but whether it is inside must be known
+        if (!found[i]) // no triangle is near, but whether the brick is inside must be known
             blocks.push_back({bricks[i], band.all_nodes()});
     return blocks;
 }
@@ -155,7 +156,7 @@ std::vector<BandBlock> blocks_of(const Band& band, const Bricks& bricks, int str
 }
 
 std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const PartialLevelsSource& source) {
-    std::vector<Bricks> bricks; // of the levels of half the voxel and of a quarter
+    std::vector<Bricks> bricks; // of the levels with half and with a quarter of the voxel
     std::size_t count = 0;
     int finer = 2;
     for (const std::vector<Index3>* voxels : {&unresolved.below_two, &unresolved.below_one}) {

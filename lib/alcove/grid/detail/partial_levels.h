@@ -8,9 +8,9 @@
 
 namespace alcove {
 
-/// What the partial levels are built from, in voxels of the finest whole level.
+/// The input of the partial levels, in voxels of the finest whole level.
 struct PartialLevelsSource {
-    Surface surface; ///< all triangles; positions are none below 0
+    Surface surface; ///< all triangles; no coordinate is below 0
     Sign sign;
     BandWidth width;        ///< of every level
     double voxel;           ///< unit space
@@ -24,9 +24,10 @@ struct PartialLevelsSource {
 inline constexpr double bytes_per_partial_brick = 6000.0;
 
 /// At most two levels, from finest to coarsest: one of a quarter of the voxel size around the voxels beside walls and
-/// gaps thinner than a voxel, and one of half the voxel size within 1.5 voxels of all unresolved voxels. Leaves out
-/// what exceeds `max_bricks`, the finest level first, and all if building them takes more than `max_bytes`. Cost: 20 ns
-/// per triangle, and that of Band::brick() for each brick.
+/// gaps thinner than a voxel, and one of half the voxel size within 1.5 voxels of all unresolved voxels. If both exceed
+/// `max_bricks` or a level covers too large a box, leaves out the finer level, or both if the coarser one does so
+/// alone. Leaves out both if building them takes more than `max_bytes`. Cost: 20 ns per triangle, plus Band::brick()
+/// for each brick.
 std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const PartialLevelsSource& source);
 
 }

@@ -19,8 +19,8 @@ namespace {
 
 constexpr float min_outer_band = 3.0f, min_inner_band = 2.0f; // voxels
 
-// Measured peaks of resident memory. Per voxel of the finest band: the grids and the bricks of their fields. Per
-// triangle that is clustered: 90 where edges are checked too.
+// Measured peaks of resident memory: per voxel of the finest band, the grids and the bricks of their fields; per
+// clustered triangle, 90 if edges are checked too.
 constexpr double bytes_per_band_voxel = 60.0;
 constexpr double bytes_per_clustered_triangle = 100.0;
 constexpr double bytes_per_voxel_of_length = 100.0; // fragments of long triangles
@@ -66,7 +66,7 @@ struct Estimate {
         };
         const double unclustered = minimum + bytes_per_triangle * triangles;
         double voxel = solved(unclustered, by_length, by_surface);
-        // No voxel that is too fine for clustering fits.
+        // If no voxel too fine for clustering fits, the finest that fits is clustered.
         if (!(unclustered < limit) || clusters(voxel))
             voxel = std::max(std::sqrt(worth_clustering * area / triangles),
                              solved(minimum + bytes_per_clustered_triangle * triangles, 0.0,

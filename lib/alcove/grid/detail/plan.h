@@ -20,7 +20,7 @@ struct LevelPlan {
 /// Total size of a set of triangles, in the unit space of the mesh's own box.
 struct SurfaceSize {
     double area = 0.0;
-    double length = 0.0; ///< sum of the longest sides: the size of needles
+    double length = 0.0; ///< sum of the longest sides, which measures needles
 };
 SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles);
 

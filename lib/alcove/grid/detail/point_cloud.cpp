@@ -34,18 +34,18 @@ struct PointsForTree {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointsForTree>, PointsForTree, 3,
                                                  std::uint32_t>;
 
-/// The nearest points of a point, itself first.
+/// The nearest neighbours of a point, with the point itself first.
 template <std::size_t N>
 struct Neighbours {
     std::array<std::uint32_t, N> index;
-    std::array<float, N> square; ///< distances
+    std::array<float, N> square; ///< squared distances
     std::size_t count;
 
     Neighbours(const Tree& tree, const Vec3& position)
         : count(tree.knnSearch(&position.x, N, index.data(), square.data())) {}
 };
 
-/// Sorts along a Morton curve and drops points at the place of another.
+/// Sorts along a Morton curve and drops points at the position of another.
 void sort_and_join(PointCloud& cloud) {
     HugeVector<Keyed<std::uint64_t>> keys(cloud.points.size());
     constexpr double cells = 1 << morton_bits;
@@ -54,7 +54,7 @@ void sort_and_join(PointCloud& cloud) {
         keys[i] = {morton_code(cell), i};
     }
     radix_sort(keys, 0, 3 * morton_bits);
-    // Points in one cell by their positions, so that equal ones are neighbours.
+    // Sorts the points in a cell by their positions, so that equal ones are adjacent.
     for (auto first = keys.begin(); first != keys.end();) {
         const auto end = std::find_if(first, keys.end(), [&](const auto& key) { return key.key != first->key; });
         if (end - first > 1)
@@ -111,7 +111,7 @@ Vec3 plane_normal(const PointCloud& cloud, const Neighbours<plane_count + 1>& ne
     return unit_or_zero(Vec3d(n.x(), n.y(), n.z()));
 }
 
-/// Estimates missing normals, and passes their sides from neighbour to neighbour, the most parallel pairs first.
+/// Estimates missing normals, and passes their orientation from neighbour to neighbour, the most parallel pairs first.
 void estimate_normals(PointCloud& cloud, const Tree& tree) {
     std::vector<std::uint8_t> decided(cloud.points.size(), 1);
     parallel_for(cloud.points.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -174,7 +174,8 @@ void estimate_normals(PointCloud& cloud, const Tree& tree) {
     }
 }
 
-/// Whether a point is far from its neighbours and off their tangent planes, or far off with them off its own.
+/// Whether a point is apart from its neighbours and off their tangent planes, far from them with them off its own, or
+/// very far from them.
 bool is_outlier(const PointCloud& cloud, const Tree& tree, const CloudPoint& point) {
     constexpr float apart = 1.4f, far = 2.5f, very_far = 8.0f; // spacings
     constexpr float off_plane = 0.3f, off_planes = 0.6f;       // sines
@@ -194,7 +195,7 @@ bool is_outlier(const PointCloud& cloud, const Tree& tree, const CloudPoint& poi
     return off_theirs > off_planes * count || (point.spacing > far * cloud.spacing && off_own > off_plane * count);
 }
 
-/// Removes outliers. \return how many.
+/// Removes outliers. \return their number.
 std::size_t remove_outliers(PointCloud& cloud, const Tree& tree) {
     std::vector<std::uint8_t> is_out(cloud.points.size(), 0);
     parallel_for(cloud.points.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -254,7 +255,7 @@ PointCloud clean_points(std::span<const Vec3d> positions, std::span<const Vec3> 
             cloud.points.push_back({p, normals.empty() ? Vec3(0.0f) : unit_or_zero(Vec3d(normals[i])), 0.0f, i});
     }
     sort_and_join(cloud);
-    // Every round leaves fewer neighbours to outliers, so that they are further from the others.
+    // Each round removes neighbours of the remaining outliers, which are then further from other points.
     constexpr int most_rounds = 3;
     for (int round = 0; round < most_rounds; ++round) {
         constexpr std::size_t least_points = 3;

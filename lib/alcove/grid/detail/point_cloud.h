@@ -21,21 +21,21 @@ struct CloudPoint {
 struct PointCloud {
     std::vector<CloudPoint> points; ///< along a Morton curve
     float spacing = 0.0f;           ///< the median
-    /// Points at the place of another: their index in the input, and that of the other one.
+    /// Points at the position of another: the index of each in the input, and that of the other one.
     std::vector<std::array<std::uint32_t, 2>> duplicates;
     std::size_t not_finite = 0, outliers = 0, estimated_normals = 0;
 };
 
-/// `normals` may be empty, and are estimated where they are zero: the direction in which the nearest twelve points vary
-/// least (Hoppe et al. 1992), turned to agree with neighbours that have a normal, or else outward at the point that is
-/// furthest along z.
+/// `normals` may be empty. Where they are zero, they are estimated: the direction in which the nearest twelve points
+/// vary least (Hoppe et al. 1992), oriented to agree with neighbours that have a normal, or else outward at the point
+/// that is furthest along z.
 ///
-/// Outliers are points that are far from the others, with neighbours that are not near their tangent plane. Cost: about
-/// 3 µs per point, 5 µs with normals to estimate. \throw InputError for fewer than three different points.
+/// Outliers are points that are off the tangent planes of distant neighbours, or very far from any neighbour. Cost:
+/// about 3 µs per point, 5 µs with normals to estimate. \throw InputError for fewer than three different points.
 PointCloud clean_points(std::span<const Vec3d> positions, std::span<const Vec3> normals, const Frame& frame);
 
-/// The box of the points without the furthest 1 % on each side, enlarged by its size on each side, if points lie outside
-/// of that; else the box of all.
+/// The box of the points without the furthest 1 % on each side, enlarged by its size on each side, if points lie
+/// outside that box; else the box of all points.
 Box box_without_outliers(std::span<const Vec3d> positions);
 
 }

@@ -250,7 +250,8 @@ void PointField::build_surface() {
         const Vec3d place = Vec3d(crossing.cell[0], crossing.cell[1], crossing.cell[2]) + Vec3d(sum / count);
         mesh.positions.push_back(double(voxel_) * place);
     }
-    // A quad around each edge of the lattice that the surface crosses, made at the cell whose first corner begins it.
+    // A quad around each edge of the lattice that the surface crosses, made at the cell whose first corner is the start
+    // of the edge.
     for (const Crossing& crossing : crossings)
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float begin = crossing.values[0], end = crossing.values[std::size_t(4) >> axis];
@@ -269,9 +270,9 @@ void PointField::build_surface() {
             }
             if (!complete)
                 continue;
-            if (begin >= 0.0f) // outside at the begin
+            if (begin >= 0.0f) // outside at the start
                 std::reverse(quad.begin(), quad.end());
-            // As triangles, so that no one splits it along the other diagonal.
+            // As triangles, so that no other code splits the quad along the other diagonal.
             const auto diagonal = [&](std::size_t k) {
                 return glm::distance(mesh.positions[quad[k]], mesh.positions[quad[k + 2]]);
             };

@@ -12,24 +12,24 @@
 
 namespace alcove {
 
-/// The signed distance to the tangent planes of nearby points, their mean weighted by distance (implicit moving least
-/// squares, Shen, O'Brien and Shewchuk 2004; Kolluri 2005), on the voxels near points. A point counts within a disc of
-/// 2.5 times its spacing, but at least two voxels, that is four voxels thick. The function is known where at least three
-/// points count, so that single points make no surface.
+/// The mean signed distance to the tangent planes of nearby points, weighted by distance (implicit moving least
+/// squares, Shen, O'Brien and Shewchuk 2004; Kolluri 2005), at the voxels near points. A point contributes within a
+/// disc that is four voxels thick, with a radius of 2.5 times the point's spacing, but at least two voxels. The
+/// function is known where at least three points contribute, so that single points make no surface.
 class PointField {
   public:
     /// `voxel` in unit space. Cost: about 0.5 µs per point. \throw LimitError if it exceeds the memory limit.
     PointField(const PointCloud& cloud, float voxel);
 
-    /// The surface where the function is known, as triangles that face outward, unit space. One vertex per cell that the
-    /// surface crosses, at the mean of its crossings with the edges of the cell (surface nets, Gibson 1998).
+    /// The surface where the function is known, as triangles that face outward, unit space. One vertex per cell that
+    /// the surface crosses, at the mean of its crossings with the edges of the cell (surface nets, Gibson 1998).
     const Mesh& surface() const { return surface_; }
 
     struct Place {
         Vec3d position;
         std::uint32_t face;
     };
-    /// The closest point of the faces around the nearest vertex, if a cell around the point has one.
+    /// The closest point on the faces around the nearest vertex; std::nullopt if no cell around the point has a vertex.
     std::optional<Place> closest(const Vec3& point) const;
 
   private:

@@ -37,7 +37,7 @@ Pseudonormals::Pseudonormals(std::span<const Vec3d> positions, std::span<const T
 void Pseudonormals::weight_normals() {
     vertex_normals_.assign(positions_.size(), Vec3(0.0f));
     const int bits = std::bit_width(positions_.size());
-    HugeVector<Keyed<std::uint64_t>> half_edges; // the two vertices of each, and its place
+    HugeVector<Keyed<std::uint64_t>> half_edges; // the two vertices of each, and its index
     half_edges.reserve(triangles_.size() * 3);
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         check_cancelled();

@@ -13,7 +13,7 @@ namespace alcove {
 /// Const use is thread-safe.
 class Pseudonormals {
   public:
-    /// Positions and triangles must outlive this.
+    /// Positions and triangles must outlive this object.
     Pseudonormals(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
     /// Negative if `p` is behind `triangle`, its nearest one; 0 if the nearest point is on the boundary of an open

@@ -17,7 +17,7 @@ namespace {
 
 // A part counts as hidden inside other parts if less than this share of it bounds the solid.
 constexpr double min_bounding = 0.05;
-// Largest share of the surface that may bound regions of negative winding number; in a solid its walls would vanish.
+// Largest share of the surface that may bound regions of negative winding number: in a solid these walls would vanish.
 constexpr double max_in_air = 0.01;
 
 void warn_of_orientation(const Closedness& surface, std::vector<std::string>& warnings) {
@@ -35,7 +35,7 @@ void warn_of_orientation(const Closedness& surface, std::vector<std::string>& wa
                                                "the walls of cavities; otherwise flip their faces"));
 }
 
-/// The parts that share vertices. Coincident vertices are not joined.
+/// Parts of the surface that are connected by shared vertices. Coincident vertices are not joined.
 DisjointSets parts_as_indexed(std::size_t vertices, std::span<const Triangle> triangles) {
     DisjointSets parts(vertices);
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
@@ -103,7 +103,8 @@ Sign choose_sign(SignChoice choice, const Mesh& mesh, const WindingColumns& colu
                  std::vector<std::string>& warnings) {
     const double leaking = columns.leaking();
     const bool overlapping = columns.overlapping();
-    // A part consists of parts as indexed, which are found faster: if none of these is hidden or inverted, no part is.
+    // Each part consists of parts as indexed, which are found faster: if none of these is hidden or inverted, no part
+    // is.
     const auto no_part_is_wrong = [&] {
         DisjointSets parts = parts_as_indexed(positions.size(), triangles);
         return !buries_a_part(columns, triangles, parts) && !inverts_a_part(positions, triangles, parts);

@@ -13,7 +13,7 @@ namespace alcove {
 namespace {
 
 constexpr double thinnest = 0.25, thickest = 2.0; // voxels
-// A wall or gap takes many voxels of a brick. Fewer are folds of a noisy surface.
+// A wall or gap affects many voxels of a brick. A few are just folds of a noisy surface.
 constexpr std::size_t fewest_in_brick = 8;
 
 std::uint64_t key_of(const Index3& low) {

@@ -13,7 +13,7 @@ namespace alcove {
 struct UnresolvedVoxels {
     std::vector<Index3> below_two; ///< beside those thinner than two voxels
     std::vector<Index3> below_one; ///< beside those thinner than one voxel
-    double share = 0.0;            ///< of the voxels next to the surface
+    double share = 0.0;            ///< their share of the voxels next to the surface
 };
 
 /// Compares the nearest triangles of neighbouring voxels: where they face in opposite directions, the neighbours are on

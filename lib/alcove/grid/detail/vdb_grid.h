@@ -13,7 +13,8 @@ struct VdbGrid {
     openvdb::FloatGrid::Ptr grid;
 };
 
-/// The zero isosurface of a grid where its transform puts it, oriented outward. \throw InputError if no sign changes.
+/// The zero isosurface of a grid, positioned by its transform and oriented outward. \throw InputError if no sign
+/// changes.
 Mesh mesh_zero_surface(const VdbGrid& grid);
 
 /// Multiplies every value and the background by `factor`; exact if that is a power of two.

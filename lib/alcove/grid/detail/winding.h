@@ -19,14 +19,14 @@ namespace alcove {
 /// cancel. Const use is thread-safe. Cost: about 5 ns per triangle and 50 ns per crossing.
 class WindingColumns {
   public:
-    /// `positions` are in index space, none below 0. Pass all triangles, even those without area: they close gaps
-    /// between their neighbours.
+    /// `positions` are in index space, with no coordinate below 0. Pass all triangles, even those without area: they
+    /// close gaps between their neighbours.
     WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
-    /// The share, among the columns with crossings, of those whose crossings do not cancel: 0 for a closed surface.
+    /// Of the columns with crossings, the share whose crossings do not cancel: 0 for a closed surface.
     double leaking() const;
 
-    /// Whether the winding number is other than 0 or 1 anywhere.
+    /// Whether any winding number is other than 0 or 1.
     bool overlapping() const;
 
     /// Whether there are crossings, but no winding number above 0 between them: every face is double-sided.

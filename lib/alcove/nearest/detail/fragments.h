@@ -31,8 +31,8 @@ inline constexpr double longest_fragment = 4.0;
 /// use is thread-safe. Cost: linear, about 60 ns per fragment, plus 20 ns for each call of fragment().
 class FragmentLeaves {
   public:
-    /// `positions` are in index space, none below 0, and finite where a triangle refers to them. They and the triangles
-    /// must outlive this object.
+    /// `positions` are in index space, with no coordinate below 0, and finite where a triangle refers to them. They and
+    /// the triangles must outlive this object.
     FragmentLeaves(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
 
     std::size_t count() const { return begin_.size() - 1; } ///< number of leaves

@@ -32,7 +32,7 @@ struct NearestOfEight {
         }
     }
 
-    /// Measures triangles of any leaves, each given as eight times the leaf plus the slot.
+    /// Measures triangles of any leaves, each given as 8 · leaf + slot.
     HWY_INLINE void update(const TriangleTree& tree, std::span<const std::uint32_t> triangles,
                            const EightPoints& voxels) {
         for (int lane = 0; lane < eight; lane += lanes) {

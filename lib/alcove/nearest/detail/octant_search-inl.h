@@ -1,4 +1,4 @@
-/// Searches the triangles nearest to the eight voxels of an octant by their offsets from its centre.
+/// Searches for the triangles nearest to the eight voxels of an octant by their offsets from its centre.
 ///
 /// Included once per Highway target, hence the unusual include guard.
 

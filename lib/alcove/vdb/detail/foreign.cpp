@@ -46,8 +46,8 @@ void check_bounding_box(const FloatGrid& grid, const openvdb::CoordBBox& voxels,
                                  grid.getName()));
 }
 
-/// Some programs leave the background far beyond the band. It says only that no distance is known, as does the largest
-/// value within the band.
+/// Some programs leave the background far beyond the band. It only says that no distance is known, and the largest
+/// value within the band says that as well.
 void limit_background(FloatGrid& grid) {
     float largest = 0.0f;
     for (auto value = grid.cbeginValueOn(); value; ++value)

@@ -162,7 +162,7 @@ FloatGrid::Ptr voxelized(const FloatGrid::Ptr& grid, const openvdb::math::Transf
 /// How a grid is transferred to the lattice.
 struct Move {
     FloatGrid::Ptr grid;
-    bool voxelize; ///< again from its surface, not interpolate its values
+    bool voxelize; ///< voxelize its surface again instead of interpolating its values
     Widths band;   ///< of the distances that are correct afterwards
 };
 
@@ -205,7 +205,7 @@ openvdb::math::Transform::Ptr lattice_of(const VdbGrid& finest) {
     return lattice;
 }
 
-/// Estimates the memory of grids that are interpolated before any is made.
+/// Estimates the memory of the grids that are interpolated, before any is made.
 void check_memory(const std::vector<Move>& moves, const Widths& band, double voxel, double limit) {
     constexpr double bytes_per_voxel = 60.0; // with the bricks of its field
     double bytes = 0.0;

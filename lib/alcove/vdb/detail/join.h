@@ -16,7 +16,7 @@ bool is_aligned(const VdbGrid& grid);
 
 /// The union of solids whose values are distances in scene units, or whose voxels are not cubes. A single one that
 /// is_aligned() is returned as it is. Otherwise the voxels of the result are cubes along the axes, as large as the
-/// smallest edge of a voxel. Where one voxel lies on each voxel, as after turns by 90° and mirroring, values are
+/// smallest edge of a voxel. Where one voxel lies on each voxel, as after rotations by 90° and mirroring, values are
 /// copied; else they are interpolated. A grid whose voxels are not cubes, or whose band is thinner than the
 /// interpolation needs, is voxelized from its zero isosurface, with a warning; values are then distances again.
 ///

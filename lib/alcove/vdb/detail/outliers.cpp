@@ -129,7 +129,7 @@ class OutlierFinder {
 using Tree = openvdb::FloatTree;
 using Reader = FloatGrid::ConstAccessor;
 
-/// The edge of the tile or voxel at a place, in voxels.
+/// The edge of the tile or voxel at a position, in voxels.
 int edge_at(const Reader& reader, const Coord& at) {
     constexpr std::array<int, 4> edges{4096, 128, 8, 1};
     return edges[static_cast<std::size_t>(std::max(reader.getValueDepth(at), 0))];

@@ -17,14 +17,14 @@ struct Outliers {
     std::size_t far = 0;   ///< among these, larger than the extent of the grid
 };
 
-/// What is wrong with the active tiles of a grid: blocks of 8³ voxels and more with one value.
+/// Defects of the active tiles of a grid: blocks of 8³ voxels and more with one value.
 struct Tiles {
     std::size_t at_surface = 0;    ///< tiles next to a value of the other sign: the surface has no voxels there
     std::size_t voxels_within = 0; ///< voxels of tiles whose value is within the band
 };
 
-/// Makes active tiles inactive, with plus or minus the background as value: in a level set, tiles only tell the inside
-/// from the outside. Cost: linear in the tiles, and in the nodes next to active ones.
+/// Makes active tiles inactive, with plus or minus the background as value: in a level set, tiles only distinguish
+/// inside from outside. Cost: linear in the tiles, and in the nodes next to active ones.
 Tiles simplify_tiles(const VdbGrid& grid);
 
 /// Checks every active voxel of a grid of distances whose signs were flood-filled. Along an axis, the distances of

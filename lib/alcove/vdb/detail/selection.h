@@ -9,8 +9,8 @@
 
 namespace alcove {
 
-/// By place in the file: the grids of those names, with all levels of a stack if one of them is named. Without names:
-/// all level sets, or else all grids without a class. Adds a warning for each level set that cannot be read.
+/// By position in the file: the grids of those names, with all levels of a stack if one of them is named. Without
+/// names: all level sets, or else all grids without a class. Adds a warning for each level set that cannot be read.
 /// \throw InputError if there are none, or if one that is named is missing or cannot be read.
 std::vector<bool> choose(const VdbStructure& structure, const std::vector<std::string>& names,
                          const std::filesystem::path& file, std::vector<std::string>& warnings);

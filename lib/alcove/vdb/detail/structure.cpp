@@ -76,7 +76,7 @@ void check_delayed_loading(ForwardReader& file, std::uint32_t size) {
     file.expect_at(static_cast<std::int64_t>(end));
 }
 
-/// What the metadata of a grid say.
+/// Facts from the metadata of a grid.
 struct Facts {
     bool halved = false; ///< whether it stores its values as half floats
     std::string grid_class = "unknown";
@@ -118,10 +118,10 @@ Facts read_metadata(ForwardReader& file) {
 struct Storage {
     bool zip, active_only, blosc;
     std::size_t value;  ///< bytes of a float or a double
-    std::size_t stored; ///< bytes of each of many values: the same, or those of a half float
+    std::size_t stored; ///< bytes of a stored value: the same, or those of a half float
 };
 
-/// OpenVDB accepts however much zlib could unpack, and ignores the checksum.
+/// OpenVDB accepts partly unpacked data, and ignores the checksum.
 void check_zipped(ForwardReader& file, std::size_t size, std::size_t stored) {
     const std::string packed = file.bytes(size);
     std::vector<Bytef> values(stored);
@@ -145,7 +145,7 @@ void check_values(ForwardReader& file, std::size_t count, std::size_t active, st
     if (kind == mask_and_none || kind == mask_and_one || kind == mask_and_two)
         file.skip(mask_bytes);
     const std::size_t stored = storage.stored * (storage.active_only && kind != all_values ? active : count);
-    const bool is_left_out = storage.stored < storage.value && stored == 0; // and so is the length
+    const bool is_left_out = storage.stored < storage.value && stored == 0; // the length is left out as well
     if (is_left_out || (!storage.blosc && !storage.zip)) {
         file.skip(stored);
         return;
@@ -191,7 +191,7 @@ bool disjoint(const Mask& a, const Mask& b) {
     return true;
 }
 
-/// What a tree needs in memory: the masks of active voxels of its leaves, to compare them, and bytes in all.
+/// The masks of active voxels of a tree's leaves, to compare them, and the memory of the tree in bytes.
 struct TreeSize {
     std::vector<std::uint64_t> leaves;
     std::size_t bytes = 0;
@@ -310,7 +310,7 @@ std::string shown(const std::string& unique_name) {
                                    : fmt::format("{}[{}]", unique_name.substr(0, at), unique_name.substr(at + 1));
 }
 
-/// "Tree_float_5_4_3_HalfFloat" without what surrounds the type of the values, unless the tree has other levels.
+/// "Tree_float_5_4_3_HalfFloat" without the text around the type of the values, unless the tree has other levels.
 std::string value_type(std::string type) {
     for (const std::string_view end : {"_HalfFloat", "_5_4_3"})
         if (type.ends_with(end))

@@ -15,7 +15,7 @@ namespace alcove {
 struct GridEntry {
     StoredGrid grid;
     std::string unique_name;
-    /// Frame of the stack of which Alcove wrote it as a level: centre and diagonal; empty in other files.
+    /// If Alcove wrote the grid as a level of a stack: centre and diagonal of the stack's frame. Else empty.
     std::vector<double> stack;
     std::string parent;    ///< unique name of the grid whose tree it shares; empty if it has its own
     bool is_linear = true; ///< its transform; otherwise a frustum
@@ -33,7 +33,7 @@ struct VdbStructure {
 /// \throw InputError if the file is not a .vdb, a length exceeds the rest of the file or differs from the length of its
 /// values, offsets or masks that are stored twice differ, a transform is inconsistent, zipped values cannot be
 /// decompressed, or bytes are left over; also for files that OpenVDB before 2.0 (2013) wrote. Cost: reads the file once
-/// and unzips what is zipped.
+/// and unzips zipped values.
 VdbStructure check_vdb_structure(const std::filesystem::path& file);
 
 }
