@@ -27,7 +27,7 @@ fs::path of_tile(const fs::path& file, int udim) {
     return file.parent_path() / name;
 }
 
-/// The file of an attribute: the given one for the first. Layers begin with ao if there is any.
+/// The file of an attribute. The first attribute, which is ao if there is any, gets the given name.
 fs::path of_attribute(const fs::path& file, std::string_view attribute, bool is_first) {
     if (is_first)
         return file;
@@ -43,7 +43,7 @@ class PngValues {
   public:
     PngValues(const BakedMaps& maps, const MapLayer& layer, int bits)
         : values_(layer.values), components_(info(layer.attribute).components), most_(float((1 << bits) - 1)) {
-        const auto map = [&](double from, double to) { // this range to [0, 1]
+        const auto map = [&](double from, double to) { // maps this range to [0, 1]
             for (Range& range : ranges_)
                 range = {static_cast<float>(1.0 / (to - from)), static_cast<float>(-from / (to - from))};
         };

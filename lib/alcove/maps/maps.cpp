@@ -24,7 +24,7 @@ constexpr double bytes_per_sample = 7.0;  // rasterizing
 constexpr double bytes_per_texel = 10.0;  // coverage, padding, counts
 constexpr int most_subsamples = 8;
 
-/// The faces of several meshes as one mesh, with normals if all of them have some.
+/// The faces of several meshes as one mesh, with normals if all of the meshes have them.
 Mesh united(std::span<const Mesh> meshes) {
     Mesh all;
     all.name = meshes.front().name;
@@ -87,7 +87,7 @@ class MapBake {
                 faces.set_cage(*options.cage);
         }
         const double error = bake.error.value_or(bake.method.empty() ? rmse_of(bake.quality) : 0.0);
-        // Rays are as noisy as a small error allows, so that neighbours differ more.
+        // With a small error, the noise of the rays is as large as the error allows, so neighbours differ by more.
         constexpr double least_error = 0.01;
         if (error >= least_error && options.subsamples == 1 && !high_ && bake.attributes == Channel::ao)
             tolerance_ = static_cast<float>(error);
@@ -146,7 +146,7 @@ class MapBake {
         return count;
     }
 
-    /// Refuses maps that do not fit.
+    /// Refuses maps that do not fit in memory.
     void check_memory(std::size_t tiles) const {
         const double samples = double(texels_) * options_.subsamples * options_.subsamples;
         const double values = double(tiles) * double(texels_) * (4.0 * double(components()) + 1.0);
@@ -174,7 +174,7 @@ class MapBake {
                                                                      tile.owners.triangles.end(), no_triangle));
         if (options_.udim && covered == 0)
             return;
-        // With fewer texels, the rest may be too sparse for the interpolation of surfels, which saves more.
+        // With fewer texels, the samples may be too sparse for the interpolation of surfels, which saves more.
         constexpr std::size_t many = 1'000'000, dense = 16; // texels; texels per triangle
         tile.is_sparse = tolerance_ > 0.0f && covered >= many && covered >= dense * faces.uvs().size();
         const auto per_side = static_cast<std::size_t>(options_.subsamples);
@@ -202,7 +202,7 @@ class MapBake {
             samples_.push_back({number, static_cast<std::uint32_t>(i)});
         });
         tiles_[number].sampled_rows = tiles_[number].uvs.height;
-        // A full batch leaves nothing of the earlier tiles.
+        // No samples of earlier tiles are left: these tiles are complete.
         if (samples_.empty() || samples_.front().tile == number)
             finish_tiles(number);
         if ((tiles_.size() - finished_) * tiles_[number].owners.size() >= most_open)
@@ -215,7 +215,7 @@ class MapBake {
         finish_tiles(static_cast<std::uint32_t>(tiles_.size()));
     }
 
-    /// Finishes the tiles before the one of that index.
+    /// Finishes the tiles with indices below `end`.
     void finish_tiles(std::uint32_t end) {
         for (; finished_ < end; ++finished_) {
             const TexelCounts counts = finish(tiles_[finished_], options_, has_tangents_);
@@ -265,8 +265,8 @@ class MapBake {
         samples_.clear();
     }
 
-    /// Interpolates the texels between samples, given the ao of these. Appends those to the samples whose neighbours
-    /// differ. \return the points of the new samples
+    /// Interpolates the texels between samples, whose ao is given. Texels whose neighbours differ are appended to the
+    /// samples. \return the points of the new samples
     std::vector<SurfacePoint> interpolate(std::span<const float> ao, std::size_t& between) {
         for (std::size_t i = 0; i < ao.size(); ++i)
             tiles_[samples_[i].tile].map.layers.front().values[samples_[i].index] = ao[i];
@@ -304,7 +304,7 @@ class MapBake {
                 [&](std::size_t i) { return projected[i].point.face; }};
     }
 
-    /// Where the samples lie on the high meshes. Drops those that miss them.
+    /// Projects the samples onto the high meshes. Drops those that miss them.
     std::vector<ProjectedTo> project_samples() {
         std::vector<ProjectedFrom> from(samples_.size());
         parallel_for(samples_.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -368,8 +368,8 @@ class MapBake {
         }
     }
 
-    /// Keeps the description of the first batch, sums times and errors, and collects warnings. The bake planned for
-    /// `sampled` texels; `more` were evaluated after it, and others interpolated `between` them.
+    /// Keeps the description of the first batch, sums times and errors, and collects warnings. The bake was planned for
+    /// `sampled` texels; afterwards, `more` texels were evaluated and `between` interpolated.
     void merge(Baked baked, std::size_t sampled, std::size_t more, std::size_t between) {
         const auto points = static_cast<double>(sampled + more + between);
         if (baked.rmse) {
@@ -409,7 +409,8 @@ class MapBake {
         maps_.baked.warnings.insert(maps_.baked.warnings.begin(), warnings.begin(), warnings.end());
     }
 
-    // Not by the memory that there is: each batch is planned by itself, and the values must not depend on the machine.
+    // Independent of the available memory: each batch is planned by itself, and the values must not depend on the
+    // machine.
     static constexpr std::size_t batch = 1 << 23, most_open = 2 * batch; // samples; those of open tiles
 
     const Mesh& mesh_;
@@ -421,12 +422,12 @@ class MapBake {
     bool has_tangents_ = false; // directions are turned into tangent space
     std::optional<Mesh> high_;
     std::optional<Projection> projection_;
-    std::vector<std::size_t> object_ends_; // of the high meshes, in the faces of high_
+    std::vector<std::size_t> object_ends_; // the end of each high mesh in the faces of high_
     std::vector<OpenTile> tiles_;
     std::size_t finished_ = 0;   // of the tiles
     HugeVector<Sample> samples_; // of the batch
     BakedMaps maps_;
-    float tolerance_ = 0.0f; // difference of neighbours between which texels are interpolated; 0: none are
+    float tolerance_ = 0.0f; // largest difference of neighbours to interpolate between; 0: none
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;
 };
 

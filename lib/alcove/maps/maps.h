@@ -52,16 +52,16 @@ MapAttributeInfo info(MapAttribute attribute);
 MapAttribute map_attribute(std::string_view name);
 
 EnumSet<MapAttribute> attributes_of(ChannelSet baked);
-/// Those of the attributes that a bake gives, which exclude the surface of high meshes.
+/// The attributes that are channels of a bake, as opposed to those of the surface of high meshes.
 ChannelSet channels_of(EnumSet<MapAttribute> attributes);
 
 struct MapOptions {
     int width = 2048, height = 2048; ///< texels, in [1, 16384]
-    int uv_set = 0;                  ///< of a glTF file: that of TEXCOORD_N
+    int uv_set = 0;                  ///< for a glTF file, the N of TEXCOORD_N
     bool udim = false;               ///< bake all UDIM tiles with faces, not only the unit square
-    int subsamples = 1;              ///< along each axis of a texel, in [1, 8]: the values of a texel are their mean
-    /// How many texels around islands are filled, >= 0; empty: 1/128 of the larger side. At least the size of the map:
-    /// everything.
+    int subsamples = 1;              ///< samples along each axis of a texel, in [1, 8]; a texel gets their mean
+    /// How many texels around islands are filled, >= 0; empty: 1/128 of the larger side. A margin of at least the size
+    /// of the map fills everything.
     std::optional<int> margin{};
     MapSpace space = MapSpace::tangent;
     bool flip_green = false; ///< negate the second coordinate of directions, as DirectX expects
@@ -69,10 +69,10 @@ struct MapOptions {
     /// Meshes whose surface is baked instead: each texel is projected onto it along the mean normal of the mesh. The
     /// mesh itself then occludes nothing, and lengths relative to a diagonal refer to these meshes.
     std::vector<Mesh> high{};
-    /// How far to look for the high meshes, in front and behind; in percent, of their diagonal. Empty: from the
-    /// distance between the meshes.
+    /// How far to look for the high meshes, in front of and behind the mesh; a percentage refers to their diagonal.
+    /// Empty: derived from the distance between the meshes.
     std::optional<Length> reach{};
-    /// The vertices of the mesh, moved outward: texels then look from here, in the direction of the mesh.
+    /// A copy of the mesh with its vertices moved outward: texels are then projected from there, toward the mesh.
     std::optional<Mesh> cage{};
     EnumSet<MapAttribute> surface{}; ///< normal, height, position or object, in addition to the attributes of the bake
 };
@@ -80,7 +80,7 @@ struct MapOptions {
 /// The values of one attribute, row by row from the top, where v is 1.
 struct MapLayer {
     MapAttribute attribute;
-    std::vector<float> values; ///< one entry per texel, of as many floats as the attribute has components
+    std::vector<float> values; ///< for each texel, one float per component of the attribute
 };
 
 enum class Coverage : std::uint8_t {
@@ -100,7 +100,7 @@ struct BakedMaps {
     int width = 0, height = 0;
     std::vector<MapTile> tiles; ///< by number
     std::size_t texels = 0;     ///< baked
-    std::size_t overlaps = 0;   ///< baked texels with several faces, of which the first was used
+    std::size_t overlaps = 0;   ///< baked texels that several faces cover; the first face was used
     std::size_t misses = 0;     ///< texels without a high mesh within reach
     double reach = 0.0;         ///< of the projection, scene units; 0 without high meshes
     double thickest = 0.0;      ///< min(radius, diagonal), which images show as 1; scene units
@@ -112,12 +112,12 @@ struct BakedMaps {
 /// first that touches it. Normals are those of corners or vertices in the file, interpolated; without them, means over
 /// faces within 40 degrees, so that edges are hard. NormalSource::angle and area smooth everything.
 ///
-/// With high meshes, each texel looks inward from MapOptions::reach in front of the mesh, and gets the first of their
-/// faces that looks outward. Texels without one get the values of their neighbours.
+/// With high meshes, each texel is projected inward, from MapOptions::reach in front of the mesh, onto the first of
+/// their faces that faces outward. Texels that hit none get the values of their neighbours.
 ///
-/// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of a million texels and
-/// more that are baked for ao alone, with an error of at least 0.01, texels get the mean of their neighbours where
-/// these differ by less than the error. Thread-safety as bake().
+/// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of at least a million
+/// texels and 16 per triangle, baked for ao alone with an error of at least 0.01 and without high meshes or subsamples,
+/// texels get the mean of their neighbours where these differ by less than the error. Thread-safety as bake().
 /// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});
@@ -132,9 +132,9 @@ enum class TexturePacking {
 /// Textures of ao for the materials of a glTF scene, or one for a mesh from another format.
 struct OcclusionTextures {
     struct Texture {
-        std::optional<std::size_t> material; ///< of the glTF file; empty: of faces without one
+        std::optional<std::size_t> material; ///< material of the glTF file; empty: for faces without one
         std::vector<std::pair<std::size_t, std::size_t>>
-            primitives; ///< that show it: meshes of the file, primitives in them
+            primitives; ///< those that show it: meshes of the file, and primitives in them
         int uv_set = 0;
         int width = 0, height = 0; ///< texels
         bool is_packed = false;    ///< into the red channel of the metallic-roughness texture
@@ -150,14 +150,14 @@ struct OcclusionTextures {
 /// With packing, the UVs are those of the metallic-roughness texture if they are without overlaps. Otherwise, and where
 /// there is no such texture, the material gets a texture of its own; Baked::warnings says so.
 /// TexturePacking::size_of_image bakes at the size of the largest of these images.
-/// \throw as bake_maps(), InputError that names the meshes for which no set of UVs is without overlaps, or an image
-/// that is damaged, missing, or neither PNG nor JPEG, and LimitError if an image does not fit in memory.
+/// \throw as bake_maps(), InputError naming the meshes that have no set of UVs without overlaps, or an image that is
+/// damaged, missing, or neither PNG nor JPEG, and LimitError if an image does not fit in memory.
 OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake = {},
                                           const MapOptions& options = {},
                                           TexturePacking packing = TexturePacking::none);
 
 /// Writes a glTF file with the textures added as the occlusionTexture of the materials. \return messages, as
-/// write_mesh(). \throw as write_mesh(); InputError for another extension than .glb and .gltf.
+/// write_mesh(). \throw as write_mesh(); InputError for an extension other than .glb and .gltf.
 std::vector<std::string> write_occlusion_textures(const Mesh& mesh, const OcclusionTextures& textures,
                                                   const std::filesystem::path& file);
 
@@ -174,7 +174,7 @@ struct MapFileOptions {
     std::vector<PackedChannel> pack{};    ///< one to four: write one .png with these channels
 };
 
-/// Checks options without a mesh. \throw InputError if an option is out of range, for another extension than .png and
+/// Checks options without a mesh. \throw InputError if an option is out of range, for an extension other than .png and
 /// .exr, a depth that the format lacks, or channels that cannot be packed.
 void check(const MapOptions& options);
 void check(const MapFileOptions& options, const std::filesystem::path& file);

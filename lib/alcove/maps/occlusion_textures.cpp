@@ -23,7 +23,7 @@
 namespace alcove {
 namespace {
 
-/// The faces of each material. Of a mesh with several instances, those of the first one.
+/// The faces of each material. If a mesh has several instances, those of the first one.
 class MaterialFaces {
   public:
     MaterialFaces(const Mesh& mesh, const GltfDocument* document, const FaceSelection& selection) {
@@ -53,7 +53,7 @@ class MaterialFaces {
     }
 
     const std::map<std::optional<std::size_t>, std::vector<std::uint8_t>>& faces() const { return faces_; }
-    /// Meshes of the file and their primitives.
+    /// The primitives with that material: meshes of the file, and primitives in them.
     std::vector<std::pair<std::size_t, std::size_t>> primitives(const std::optional<std::size_t>& material) const {
         const auto found = primitives_.find(material);
         if (found == primitives_.end())
@@ -68,8 +68,8 @@ class MaterialFaces {
     std::set<std::size_t> others_;
 };
 
-/// Whether every face of a layout has texels of its own: rasterized, at most a thousandth of the texels overlap, and
-/// all UVs lie in the texture.
+/// Whether every face of a layout has texels of its own: when rasterized, at most a thousandth of the texels overlap,
+/// and all UVs lie in the texture.
 bool is_unwrapped(const Mesh& mesh, const UvLayout& layout, const MapOptions& options) {
     constexpr float rounding = 1e-3f;
     const UvFaces faces(mesh, {NormalSource::automatic, layout.uv_set, layout.wanted});

@@ -48,7 +48,7 @@ double map_calls_per_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, 
     return static_cast<double>(counting.calls()) / static_cast<double>(surfels.size());
 }
 
-/// An error for every vertex: the error of the last vertex with a truth, up to it on the Morton curve.
+/// An error for every vertex: that of the last vertex with a truth, at or before it on the Morton curve.
 std::vector<float> errors_of_all(const MeasuredMesh& mesh, const Truth& truth, std::span<const float> values) {
     std::vector<float> errors(mesh.surfels.size(), 0.0f);
     std::size_t next = 0;

@@ -48,7 +48,7 @@ struct Truth {
     /// All vertices with a normal except those of `labels`, or a subset that is evenly spaced along the Morton curve.
     std::vector<std::uint32_t> vertices;
     std::vector<float> ao; ///< one value per entry of `vertices`
-    /// Other vertices, which methods with a network are fitted to. Null if none are wanted, and for small meshes.
+    /// Other vertices, to which methods with a network are fitted. Null if none are requested, and for small meshes.
     std::shared_ptr<const Labels> labels;
 };
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options = {},

@@ -68,7 +68,7 @@ Mesh surface_of(const std::string& file, const std::optional<Length>& weld) {
     return weld ? join_vertices(mesh, *weld).mesh : mesh;
 }
 
-/// Measures jobs in turn. Keeps what consecutive jobs share, and shows the progress of all.
+/// Measures jobs in turn. Keeps data that consecutive jobs share, and shows the progress of all jobs.
 class JobRunner {
   public:
     JobRunner(const std::vector<Job>& jobs, const SweepOptions& options) : options_(options) {
@@ -105,7 +105,7 @@ class JobRunner {
     }
 
   private:
-    // In rays per vertex, or work that takes about as long.
+    // In units of the work for one ray per vertex.
     static constexpr double truth_work = TruthOptions{}.rays, grid_work = 100.0;
     static double work_of(const MethodChoice& choice) { return 5.0 + choice.samples; }
 

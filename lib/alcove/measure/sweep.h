@@ -29,7 +29,7 @@ struct SweepOptions {
 struct Sweep {
     std::vector<Measurement> measurements; ///< without duplicates; those of a mesh are adjacent
     std::vector<std::string> failures;     ///< one message per mesh that cannot be measured
-    bool bad_input = false;                ///< whether one of these meshes is at fault, and not the memory
+    bool bad_input = false;                ///< whether a mesh file caused one of them, rather than a lack of memory
 };
 
 /// Measures every method at every radius and voxel on every mesh. Each grid and reference is built once.

@@ -10,7 +10,7 @@ namespace {
 struct Edge {
     std::uint32_t low, high; ///< vertices
     std::uint32_t triangle;
-    std::uint8_t at_low, at_high; ///< its corners
+    std::uint8_t at_low, at_high; ///< the triangle's corners there
 
     auto vertices() const { return std::pair(low, high); }
 };

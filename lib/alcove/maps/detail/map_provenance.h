@@ -1,4 +1,4 @@
-/// How maps were made, as their files say.
+/// How maps were made, as text for their files.
 #pragma once
 
 #include "alcove/maps/maps.h"

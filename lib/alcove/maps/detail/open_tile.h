@@ -22,8 +22,8 @@ struct OpenTile {
     std::vector<std::uint16_t> counts{}; ///< samples per texel
     std::vector<std::uint8_t> wanted{};  ///< 1 for texels of a face
     bool is_sparse = false;              ///< texels between samples are interpolated, see texels_around()
-    int sampled_rows = 0;                ///< whose samples have been taken, from the top
-    int interpolated_rows = 0;           ///< whose texels between others have been interpolated
+    int sampled_rows = 0;                ///< rows from the top whose samples have been taken
+    int interpolated_rows = 0;           ///< rows whose texels between samples have been interpolated
 };
 
 /// The texels from which one is interpolated.
@@ -36,8 +36,8 @@ struct TexelsAround {
 /// chart.
 TexelsAround texels_around(const OpenTile& tile, std::size_t texel);
 
-/// Interpolates texels whose neighbours differ by at most `tolerance`, in the rows whose neighbours have values, and adds
-/// their number to `count`. \return the other texels between samples
+/// Interpolates texels whose neighbours differ by at most `tolerance`, in the rows whose neighbours have values, and
+/// adds their number to `count`. \return the other texels between samples
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count);
 
 struct TexelCounts {
@@ -48,8 +48,8 @@ struct TexelCounts {
 /// Turns sums into means, and fills the margin and texels that were missed.
 TexelCounts finish(OpenTile& tile, const MapOptions& options, bool has_tangents);
 
-/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Passes the
-/// number of rows from the top that have been visited completely.
+/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Also passes
+/// the number of rows from the top that are complete.
 template <class Visit>
 void each_texel_in_blocks(const UvTile& tile, const Visit& visit) {
     constexpr int side = 64;

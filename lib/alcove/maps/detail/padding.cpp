@@ -39,7 +39,7 @@ class Envelope {
   public:
     explicit Envelope(std::size_t width) : sites_(width), starts_(width) {}
 
-    /// Calls `visit(x, site)` for each x with the lowest parabola there; none if all heights are `far`.
+    /// Calls `visit(x, site)` for each x, where `site` is the lowest parabola at x; for none if all heights are `far`.
     template <class Visit>
     void each(std::span<const std::int64_t> heights, const Visit& visit) {
         std::size_t count = 0;
@@ -72,7 +72,7 @@ class Envelope {
     }
 
     std::vector<std::size_t> sites_;
-    std::vector<double> starts_; // from where on a site is the lowest
+    std::vector<double> starts_; // x from which a site is the lowest
 };
 
 }
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> nearest_covered(std::span<const std::uint8_t> covered
             for (std::size_t x = 0; x < columns; ++x) {
                 if (is_covered[x])
                     continue;
-                // A run of texels without cover, and the covered ones beside it, beyond which nothing is nearer.
+                // A run of uncovered texels and the covered ones beside it, beyond which no covered texel is nearer.
                 const std::size_t first = x - (x > 0);
                 heights.assign(x - first, 0);
                 bool is_near = x > first;

@@ -31,11 +31,11 @@ class Projection {
     /// Cost: about 0.3 µs per triangle. Keeps a reference to the mesh.
     Projection(const Mesh& high, NormalSource normals);
 
-    /// Looks inward from in front of each point to `behind` (scene units) behind it, for the first face that looks
-    /// outward. Cost: about 0.5 µs per point.
+    /// Traces a ray inward, from in front of each point to `behind` (scene units) behind it, to the first face that
+    /// faces outward. Cost: about 0.5 µs per point.
     std::vector<ProjectedTo> project(std::span<const ProjectedFrom> points, double behind) const;
-    /// Five times the distance within which 95 % of the points have the surface, in front or behind, among those that
-    /// have it within a tenth of its diagonal.
+    /// Five times the distance within which 95 % of the points find the surface, in front or behind; counts only points
+    /// that find it within a tenth of its diagonal.
     double reach_for(std::span<const ProjectedFrom> points) const;
     double diagonal() const { return frame_.diagonal; }
 
@@ -48,7 +48,7 @@ class Projection {
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> faces_;
     std::vector<std::array<Vec3, 3>> normals_;
-    RaySurface surface_; // with corners of its own for each triangle, so that a hit tells the triangle
+    RaySurface surface_; // each triangle has corners of its own, so that a hit identifies it
 };
 
 }

@@ -36,8 +36,8 @@ struct Span {
     std::int64_t begin, end;
 };
 
-/// Fills the texels of one tile. Runs of texels that need no further look are skipped, so any number of overlapping
-/// triangles costs little more than their rows.
+/// Fills the texels of one tile. Runs of texels that are done are skipped, so even many overlapping triangles cost
+/// little more than their rows.
 class Rasterizer {
   public:
     explicit Rasterizer(const UvTile& tile) : tile_(tile) {
@@ -48,7 +48,7 @@ class Rasterizer {
         skips_.assign(count, 0);
     }
 
-    /// The texels whose centres the triangle contains.
+    /// Claims the texels whose centres the triangle contains.
     void add_centres(const UvTriangle& uvs, std::uint32_t triangle) {
         std::array<Point, 3> p;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -71,7 +71,8 @@ class Rasterizer {
         }
     }
 
-    /// Further free texels that the triangle touches. Call after add_centres() for all triangles and start_borders().
+    /// Claims further texels that the triangle touches, if they are free. Call after add_centres() for all triangles
+    /// and start_borders().
     void add_border(const UvTriangle& uvs, std::uint32_t triangle) {
         std::array<glm::dvec2, 3> p;
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -83,7 +84,7 @@ class Rasterizer {
         const auto first = static_cast<std::int64_t>(std::clamp(std::floor(low), 0.0, double(tile_.height))),
                    last = static_cast<std::int64_t>(std::clamp(std::floor(high), -1.0, double(tile_.height) - 1.0));
         for (std::int64_t row = first; row <= last; ++row) {
-            // The range of x of the part of the triangle in the row.
+            // The range of x that the triangle covers in the row.
             double least = std::numeric_limits<double>::infinity(), most = -least;
             const double top = static_cast<double>(row), bottom = top + 1.0;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -172,7 +173,7 @@ class Rasterizer {
 
     UvTile tile_;
     TexelOwners owners_;
-    std::vector<std::uint16_t> skips_; // texels from here on that need no further look; 0 if this one does
+    std::vector<std::uint16_t> skips_; // number of texels from here on that are done; 0 if this one is not
 };
 
 }

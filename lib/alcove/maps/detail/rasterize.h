@@ -27,19 +27,20 @@ struct TexelOwners {
     std::size_t size() const { return triangles.size(); }
 };
 
-/// The UVs that the tile covers: the unit square from `corner` on.
+/// The UVs that the tile covers: the unit square that begins at `corner`.
 struct UvTile {
     int width, height; ///< texels
     Vec2 corner{0.0f};
 };
 
 /// A texel belongs to the first triangle that contains its centre, else to the first that touches it at all, so that
-/// textures have no gaps at the borders of islands. Shared edges do not overlap. Cost: about 3 ns per texel and 1 ns per
-/// triangle and row, also where any number of triangles overlap.
+/// textures have no gaps at the borders of islands. Shared edges do not overlap. Cost: about 3 ns per texel and 1 ns
+/// per triangle and row, however many triangles overlap.
 /// \pre all UVs are finite and within `furthest_uv` of 0; a tile has at most `most_texels` along each side
 TexelOwners rasterize(std::span<const UvTriangle> triangles, const UvTile& tile);
 
-/// The barycentric coordinates in a triangle of the UV nearest to the centre of a texel. \pre the triangle has an area
+/// The barycentric coordinates of the point of a triangle, in UV space, that is nearest to the centre of a texel. \pre
+/// the triangle has an area
 Vec3d weights_at(const UvTriangle& triangle, const UvTile& tile, std::size_t texel);
 
 }

@@ -6,7 +6,7 @@
 namespace alcove {
 namespace {
 
-/// The texels of a row or column that a new one is the weighted mean of.
+/// The texels of a row or column whose weighted mean is the new texel.
 struct Weights {
     std::size_t first = 0;
     std::vector<float> shares;

@@ -23,7 +23,7 @@ Vec3d projected(const Vec3d& v, const Vec3d& normal) {
     return unit(v - glm::dot(normal, v) * normal);
 }
 
-/// The directions of u on a triangle, and whether its UVs keep the orientation. Zero if the UVs have no area.
+/// The direction of u on a triangle, and whether its UVs keep the orientation. Zero if the UVs have no area.
 struct Gradient {
     Vec3d along_u{0.0};
     bool keeps_orientation = false, is_degenerate = true;
@@ -39,7 +39,7 @@ struct Gradient {
     }
 };
 
-/// Numbers equal values alike.
+/// Gives equal values equal numbers.
 std::vector<std::uint32_t> vertices_of(std::span<const Corners> triangles) {
     std::vector<std::uint32_t> order(3 * triangles.size()), vertices(order.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -95,7 +95,7 @@ class TangentGroups {
     }
 
   private:
-    /// The corners around a vertex that are connected by edges and equally mirrored.
+    /// Adds the corners around a vertex that are connected by edges and equally mirrored.
     void add_group(std::uint32_t first) {
         const bool orientation = gradients_[first / 3].keeps_orientation;
         std::vector<std::uint32_t> group{first};
@@ -119,7 +119,7 @@ class TangentGroups {
 
     void visit(std::uint32_t corner, bool orientation, std::vector<std::uint32_t>& group) {
         Gradient& gradient = gradients_[corner / 3];
-        if (gradient.is_degenerate && !has_orientation(corner / 3)) // takes that of the first group to reach it
+        if (gradient.is_degenerate && !has_orientation(corner / 3)) // takes that of the group that reaches it first
             gradient.keeps_orientation = orientation;
         if (has_group_[corner] || gradient.keeps_orientation != orientation)
             return;
@@ -145,7 +145,7 @@ class TangentGroups {
     std::span<const Corners> triangles_;
     std::vector<std::uint32_t> vertices_, neighbours_; // by corner
     std::vector<Gradient> gradients_;                  // by triangle
-    std::vector<Vec3d> tangents_; // by corner; as initialized where no triangle with an area in UV space is near
+    std::vector<Vec3d> tangents_; // by corner; keeps its initial value if no triangle with an area in UV space is near
     std::vector<std::uint8_t> has_group_;
 };
 

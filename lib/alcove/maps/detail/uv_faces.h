@@ -35,25 +35,26 @@ class UvFaces {
     std::size_t without_texels() const { return without_texels_; }
     /// The face of a triangle.
     std::uint32_t face(std::uint32_t triangle) const { return faces_[triangle]; }
-    /// Its normal is not of unit length.
+    /// The point of a triangle with these weights. Its normal is not of unit length.
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what chart() needs.
     void add_charts();
     std::uint32_t chart(std::uint32_t triangle) const { return charts_[triangle]; }
     /// Computes what projected_from() needs.
     void add_directions();
-    /// The point, to be looked at from `front` before it along the mean of the normals around its vertices, which has no
-    /// gaps at hard edges; or from the cage, if there is one.
+    /// The point, to be projected along the mean of the normals around its vertices, which leaves no gaps at hard
+    /// edges, from `front` in front of it; or from the cage, if there is one.
     ProjectedFrom projected_from(std::uint32_t triangle, const Vec3d& weights, double front) const;
-    /// A mesh with the vertices of this one, moved outward. \throw InputError if it has another number of vertices.
+    /// Sets the cage: a mesh with the vertices of this one, moved outward. \throw InputError if it has a different
+    /// number of vertices.
     void set_cage(const Mesh& cage);
     /// Computes what to_tangent() needs.
     void add_tangents();
-    /// A direction in the frame that shaders interpolate between the corners. Zero if that has no area.
+    /// A direction in the frame that shaders interpolate between the corners. Zero if that frame is degenerate.
     Vec3 to_tangent(std::uint32_t triangle, const Vec3d& weights, const Vec3& direction) const;
     /// The numbers of the UDIM tiles that triangles reach, in ascending order; only 1001 without `udim`.
     std::vector<int> tiles(bool udim) const;
-    /// What was left out, and what lies outside of the tiles.
+    /// Warnings about triangles that were left out and those outside the tiles.
     std::vector<std::string> warnings(bool udim) const;
 
   private:

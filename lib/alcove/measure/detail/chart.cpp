@@ -63,7 +63,7 @@ struct Place {
     }
 };
 
-/// Places labels next to, above or below their points; omits those without room.
+/// Places labels next to, above or below their points; omits labels that do not fit.
 class Labels {
   public:
     void keep_free(double x, double y) { taken_.push_back({x - 5, y, 10}); }

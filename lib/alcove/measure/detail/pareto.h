@@ -12,7 +12,7 @@ struct CostAndError {
 };
 
 /// The indices of the Pareto-optimal choices, cheapest first: every other choice that is not more expensive has a
-/// larger error. Of equal choices, only the first (Pareto 1906). Cost: n log n.
+/// larger error. Equal choices are represented by the first of them (Pareto 1906). Cost: n log n.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> choices);
 
 }

@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// The key of a measurement: mesh, its file size in bytes, method, samples, radius and voxel as the user wrote them, and
-/// version.
+/// The key of a measurement: mesh, its file size in bytes, method, samples, radius and voxel as the user wrote them,
+/// and version.
 using MeasurementKey = nlohmann::ordered_json;
 
 class ResultsFile {
