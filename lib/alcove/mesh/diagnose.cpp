@@ -58,7 +58,7 @@ struct Volume {
         sum += glm::dot(mean, normal) / 6.0;
         bound += glm::length(mean) * areas / 6.0;
     }
-    /// The sign of rounding errors does not count: a folded sheet encloses no volume.
+    /// Ignores signs that are due to rounding: a folded sheet encloses no volume.
     bool negative() const { return sum < -1e-12 * bound; }
 };
 
@@ -91,7 +91,7 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
     std::vector<Component> parts;
     std::vector<std::uint32_t> part_of = huge_vector<std::uint32_t>(faces.count());
     for (std::uint32_t f = 0; f < faces.count(); ++f) {
-        const std::uint32_t first = components.find(f); // the smallest, so already numbered
+        const std::uint32_t first = components.find(f); // the smallest of its set, so already numbered
         if (first == f) {
             part_of[f] = static_cast<std::uint32_t>(parts.size());
             parts.emplace_back();

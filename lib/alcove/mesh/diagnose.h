@@ -1,4 +1,4 @@
-/// Examines a mesh as a surface: whether it is closed, oriented and manifold, and what is broken in it.
+/// Examines a mesh as a surface: whether it is closed, oriented and manifold, and which defects it has.
 ///
 /// Edges and components belong to the surface, not to the index list: vertices at exactly the same position are
 /// joined first, consecutive repeated corners count once, and faces with fewer than three corners left or with a

@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// Reads a mesh. The format is determined by the first bytes of the file, or else by its extension. In text, a
-/// byte-order mark of UTF-8 before it and NUL and Ctrl-Z bytes after it are skipped, and 1.#INF, 1.#IND, 1.#QNAN are
+/// Reads a mesh. The format is determined by the first bytes of the file, or else by its extension. In text files, a
+/// UTF-8 byte-order mark at the start and NUL and Ctrl-Z bytes at the end are skipped, and 1.#INF, 1.#IND, 1.#QNAN are
 /// numbers.
 ///
 /// The vertices and faces keep the count and order of the file, and polygons stay polygons. Non-finite vertices and
@@ -31,10 +31,11 @@ namespace alcove {
 ///    appearance. Facet normals are ignored, as the corners determine them. The 15-bit colours of VisCAM and Magics
 ///    become `face_colors`. A binary count of 0 or -1 means as many facets as the file has room for.
 ///  - glTF 2.0: .glb, or .gltf with its buffers; the meshes of the default scene in its coordinates, instance by
-///    instance, rounded to floats if that moves no vertex by more than 1e-6 of the diagonal. Skinned meshes are in their
-///    bind pose, morph targets are ignored. KHR_mesh_quantization, EXT_meshopt_compression, KHR_draco_mesh_compression
-///    and EXT_mesh_gpu_instancing are read. `groups` have the names of nodes, meshes and materials. TEXCOORD_0 becomes
-///    `vertex_uvs`, COLOR_0 `vertex_colors`, and the base colours of materials become `face_colors`.
+///    instance, rounded to floats if that moves no vertex by more than 1e-6 of the diagonal. Skinned meshes are in
+///    their bind pose, morph targets are ignored. KHR_mesh_quantization, EXT_meshopt_compression,
+///    KHR_draco_mesh_compression and EXT_mesh_gpu_instancing are read. `groups` have the names of nodes, meshes and
+///    materials. TEXCOORD_0 becomes `vertex_uvs`, COLOR_0 `vertex_colors`, and the base colours of materials become
+///    `face_colors`.
 ///
 /// Thread-safe. Cost: linear, about 0.2 µs per triangle for text and 0.1 µs for binary PLY; the file and the mesh
 /// are in memory at the same time.
@@ -79,7 +80,7 @@ bool can_write_mesh(const std::filesystem::path& file);
 /// moving, adding or removing vertices or faces.
 ///
 /// \return what the format could not store, which paths changed, and which values attributes replaced, except those
-/// that an earlier run made according to a comment in the file; one message each; empty if there is nothing to say.
+/// that an earlier run made according to a comment in the file. One message each; empty if there are none.
 /// \throw InputError for another extension, with the ones that work; IoError if the file cannot be written.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 

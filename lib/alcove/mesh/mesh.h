@@ -32,7 +32,7 @@ struct FaceGroup {
     static constexpr std::size_t most_letters = 256; ///< of a name; longer ones are cut
 
     std::vector<std::string> names;
-    std::uint32_t first_face = 0; ///< the last one is before the next group
+    std::uint32_t first_face = 0; ///< the group ends where the next one begins
     bool see_through = false;     ///< its glTF material is masked or blended
 };
 
@@ -51,10 +51,10 @@ struct Mesh {
     std::vector<Color> face_colors;           ///< empty, or one per face: those of the file
     std::vector<FaceGroup> groups;            ///< empty, or groups of all faces in their order
     std::vector<Attribute> attributes;        ///< added values, written in addition to those of the file
-    std::vector<std::string> warnings;        ///< what reading had to leave out, as messages with counts
-    std::vector<Color> added_colors;          ///< empty, or one per vertex: replace those of the file
+    std::vector<std::string> warnings;        ///< messages about data that could not be read, with counts
+    std::vector<Color> added_colors;          ///< empty, or one per vertex: these replace those of the file
     ColorEncoding added_encoding = ColorEncoding::srgb; ///< of added_colors
-    /// Empty, or 1 for each vertex that has added values. The nodes of a glTF scene without any stay as they are.
+    /// Empty, or 1 for each vertex that has added values. Nodes of a glTF scene without such vertices are not changed.
     std::vector<std::uint8_t> baked_vertices;
     /// Instances of one mesh in a glTF scene share added values whose RMSE does not exceed this.
     double instance_error = 0.0;

@@ -35,8 +35,8 @@ std::vector<Vec3> angle_weighted_normals(const Mesh& mesh, std::span<const Trian
 std::vector<Vec3> area_weighted_normals(const Mesh& mesh, std::span<const Triangle> triangles);
 
 /// One surfel per vertex: its position in the unit space of `frame` and its normal. A vertex that is not finite, or
-/// that no face uses (in a mesh that has faces), is put at the origin without a normal. \throw InputError if `source` is
-/// `file` and the mesh has no normals.
+/// that no face uses (in a mesh that has faces), is put at the origin without a normal. \throw InputError if `source`
+/// is `file` and the mesh has no normals.
 std::vector<Surfel> make_surfels(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame,
                                  NormalSource source = NormalSource::automatic);
 

@@ -161,7 +161,7 @@ std::vector<Triangle> corners_of_triangles(const Mesh& mesh) {
 
 Triangulation triangulate(const Mesh& mesh) {
     const bool all_finite = are_finite(mesh.positions);
-    // For triangles, sharing the work and joining the results would take longer than the work itself.
+    // In a mesh of triangles, distributing the work and joining the results would take longer than the work itself.
     if (mesh.corners.size() <= 3 * mesh.face_count())
         return triangulate_range(mesh, all_finite, 0, mesh.face_count());
     // Blocks with about equal numbers of corners, so that a few huge polygons are shared too.

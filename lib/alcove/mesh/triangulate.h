@@ -24,8 +24,8 @@ Triangulation triangulate(const Mesh& mesh);
 /// The face of each triangle of triangulate(mesh). Cost: that of triangulate() on one thread.
 std::vector<std::uint32_t> faces_of_triangles(const Mesh& mesh);
 
-/// For each triangle of triangulate(mesh), the indices into Mesh::corners of its corners. Cost: that of triangulate() on
-/// one thread.
+/// For each triangle of triangulate(mesh), the indices into Mesh::corners of its corners. Cost: that of triangulate()
+/// on one thread.
 std::vector<Triangle> corners_of_triangles(const Mesh& mesh);
 
 }

@@ -16,7 +16,7 @@ constexpr int max_intervals = 64;
 
 struct Edge {
     std::uint32_t a = 0, b = 0;
-    std::uint32_t middle = 0; ///< number of the point at its midpoint, if tested
+    std::uint32_t middle = 0; ///< number of the tested point at its midpoint, if there is one
     std::uint32_t pieces = 0; ///< number of pieces at the edge, if marked
     Vec3d normal{0.0};        ///< area-weighted sum over its pieces
     bool tested = false;
@@ -103,7 +103,8 @@ class AdaptiveCuts {
         return length > 0.0 ? static_cast<int>(std::min(std::ceil(length / spacing_), double(max_intervals))) : 0;
     }
 
-    /// Adds rows of points parallel to the longest side, or only the centre if the triangle is lower than the spacing.
+    /// Adds rows of points parallel to the longest side, or only the centre if the triangle's height is below the
+    /// spacing.
     void add_points_inside(const Piece& piece, std::size_t longest) {
         Edge& edge = edges_[key(piece, longest)];
         const Vec3d normal = area_normal(piece);
@@ -270,7 +271,7 @@ class AdaptiveCuts {
     const double spacing_; ///< in the scaled mesh
     std::unordered_map<std::uint64_t, Edge> edges_;
     std::vector<Edge*> marked_;
-    std::vector<bool> at_marked_;        ///< per vertex before the cut: end of a marked edge
+    std::vector<bool> at_marked_;        ///< per vertex before the cut: whether a marked edge ends there
     std::vector<std::uint32_t> numbers_; ///< per added vertex: its number as a tested point
     std::size_t tested_ = 0;
     std::vector<PointBetween> points_;   ///< not tested yet

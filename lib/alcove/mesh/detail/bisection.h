@@ -51,7 +51,7 @@ class Bisection {
     const std::vector<Vec3d>& positions() const { return positions_; } ///< of all vertices; the added ones are last
     bool is_cut(std::uint32_t face) const { return cut_[face]; }
 
-    /// The number of faces after cut_longer_than(longest); an arbitrary larger number than `most` if it exceeds that.
+    /// The number of faces after cut_longer_than(longest); if it exceeds `most`, an arbitrary number above `most`.
     std::size_t count_faces(double longest, std::size_t most) const;
     std::size_t face_count() const; ///< the number of faces so far
     double longest_side() const;

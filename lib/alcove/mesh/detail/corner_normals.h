@@ -9,13 +9,14 @@
 namespace alcove {
 
 /// One normal per corner of the triangles of triangulate(mesh), unit length; zero if all faces around the vertex are
-/// degenerate. The normal of the corner or vertex in the file if there is one; else the area-weighted mean of the adjacent faces within 40 degrees of the triangle; at
-/// vertices of more than 256 faces, the normal of the triangle. All vertices of the triangles must be finite, as
-/// triangulate() ensures. Cost: linear in the triangles, times the number of triangles around a vertex.
+/// degenerate. It is the normal of the corner or vertex in the file, if there is one. Otherwise it is the area-weighted
+/// mean of the adjacent faces within 40 degrees of the triangle, or, at vertices of more than 256 faces, the normal of
+/// the triangle. All vertices of the triangles must be finite, as triangulate() ensures. Cost: linear in the triangles,
+/// times the number of triangles around a vertex.
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles);
 
-/// The same for a source. `automatic` and `file`: as above; `angle` and `area`: one normal per vertex. \throw InputError
-/// if `source` is `file` and the mesh has no normals.
+/// The same for a source. `automatic` and `file`: as above; `angle` and `area`: one normal per vertex. \throw
+/// InputError if `source` is `file` and the mesh has no normals.
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles,
                                                 NormalSource source);
 

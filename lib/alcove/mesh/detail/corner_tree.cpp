@@ -32,7 +32,7 @@ void CornerTree::build(std::span<const glm::dvec2> outline, const std::vector<ch
         bounds_[node] = bounds_of_children(node);
 }
 
-/// Along the longest edge, as the long and thin triangles beside it would overlap many boxes that are oblique to it.
+/// Aligns the boxes with the longest edge, as the long and thin triangles beside it would overlap many oblique boxes.
 void CornerTree::align(std::span<const glm::dvec2> outline) {
     glm::dvec2 longest(0.0);
     for (std::size_t i = 0; i < outline.size(); ++i) {

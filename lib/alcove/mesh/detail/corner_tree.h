@@ -13,7 +13,7 @@
 
 namespace alcove {
 
-/// Positive if the path a, b, c turns left: twice the area of the triangle.
+/// Twice the area of the triangle a, b, c; positive if the path turns left.
 inline double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
@@ -60,8 +60,8 @@ class CornerTree {
     static bool overlaps(const Bounds& bounds, const std::array<glm::dvec2, 3>& triangle);
 
     glm::dvec2 axis_{1.0, 0.0};        ///< of the boxes
-    std::vector<Member> members_;      ///< near ones are near each other
-    std::vector<std::uint32_t> slots_; ///< of each corner, its place in `members_` or `none`
+    std::vector<Member> members_;      ///< ordered so that nearby members are close in the array
+    std::vector<std::uint32_t> slots_; ///< for each corner, its index in `members_`, or `none`
     std::size_t first_leaf_ = 1;       ///< a power of two
     std::vector<Bounds> bounds_;       ///< of node 1, the root; the children of node i are 2 i and 2 i + 1
 };
@@ -70,7 +70,7 @@ template <class Predicate>
 bool CornerTree::any_in(const std::array<glm::dvec2, 3>& triangle, Predicate&& counts) const {
     const auto& [a, b, c] = triangle;
     const std::array<glm::dvec2, 3> seen{aligned(a), aligned(b), aligned(c)};
-    std::array<std::size_t, 64> nodes; // that are left to visit: at most one for each level, and one more
+    std::array<std::size_t, 64> nodes; // left to visit: at most one per level, plus one
     std::size_t count = 0;
     nodes[count++] = 1;
     while (count > 0) {

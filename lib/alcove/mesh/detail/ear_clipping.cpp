@@ -8,7 +8,7 @@ namespace {
 
 using Vec2d = glm::dvec2;
 
-/// Without an ear, the corner to clip is the sharpest of this many.
+/// If there is no ear, the sharpest of this many corners is clipped.
 constexpr std::size_t most_compared = 2048;
 
 bool is_inside(const Vec2d& p, const std::array<Vec2d, 3>& triangle) {
@@ -16,7 +16,7 @@ bool is_inside(const Vec2d& p, const std::array<Vec2d, 3>& triangle) {
     return turns_left(a, b, p) && turns_left(b, c, p) && turns_left(c, a, p);
 }
 
-/// Whether the way from `p`, which is in the triangle or on its sides, to `q` begins inside.
+/// Whether a path from `p`, which is in the triangle or on its sides, to `q` begins inside the triangle.
 bool enters(const Vec2d& p, const Vec2d& q, const std::array<Vec2d, 3>& triangle) {
     const auto& [a, b, c] = triangle;
     const auto leads_inwards = [&](const Vec2d& from, const Vec2d& to) {
@@ -94,7 +94,7 @@ void EarClipper::clip_ear(std::size_t i) {
     ears_.remove(i);
     if (reflex_.has(i))
         reflex_.remove(i);
-    // Clipping makes corners sharper only. It does not affect the other ears of a simple polygon, unless a corner
+    // Clipping only makes corners sharper. It does not affect the other ears of a simple polygon, unless a corner
     // touches the side of an ear.
     for (const std::uint32_t neighbour : {before, after})
         if (reflex_.has(neighbour) && is_convex(neighbour))

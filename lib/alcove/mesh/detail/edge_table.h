@@ -1,7 +1,7 @@
 /// The edges of a polygon soup with any number of faces per edge.
 ///
 /// Not OpenMesh's half-edges: these cannot represent an edge of three faces without duplicating its vertices, and
-/// making them takes 350 ns a triangle, more than twice what closedness() takes in all.
+/// building them takes 350 ns per triangle, more than twice the time of closedness() as a whole.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -16,7 +16,7 @@ struct SoundFaces {
     std::vector<std::uint32_t> corners;  ///< no corner equals the next one, cyclically
     std::vector<std::uint32_t> face_of;  ///< one per corner
     std::vector<std::uint32_t> source;   ///< one per face: its index in the mesh
-    std::size_t collapsed = 0;           ///< faces left out that have fewer than three corners, all finite
+    std::size_t collapsed = 0;           ///< faces left out because fewer than three corners remain, all of them finite
 
     std::size_t count() const { return begin.size() - 1; }
     std::span<const std::uint32_t> face(std::size_t f) const {
@@ -69,7 +69,7 @@ class DisjointSets {
             i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    /// A fast test: true only if both are in one set, but not always then.
+    /// A fast test: true only if both are in one set, but it may be false even then.
     bool surely_joined(std::uint32_t a, std::uint32_t b) const { return parent_[a] == parent_[b]; }
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a);

@@ -21,8 +21,8 @@ struct Rim {
     std::vector<std::array<std::uint32_t, 2>> sides; ///< indices of `vertices`
 };
 
-/// Around a vertex inside the surface, the vertices at the ends of the sides that leave it are those of the sides that
-/// come in. So the sums of their hashes cancel.
+/// At a vertex inside the surface, the sides that leave it end at the same vertices at which the sides that enter it
+/// start, so the sums of their hashes cancel.
 std::vector<std::uint64_t> unbalanced_sums(std::size_t vertices, std::span<const Triangle> triangles) {
     const auto hash = [](std::uint64_t v) { // finalizer of MurmurHash3 (Appleby 2011)
         v = (v + 1) * 0x9e3779b97f4a7c15ULL;
@@ -58,7 +58,7 @@ Rim rim_of(const Mesh& mesh, std::span<const Triangle> triangles) {
     return rim;
 }
 
-/// The edges that one triangle uses, and the sides without length, if vertices are joined.
+/// The number of edges that only one triangle uses, plus that of sides without length, once vertices are joined.
 std::size_t open_edges(const Rim& rim, std::span<const std::uint32_t> joined) {
     const std::uint64_t count = rim.vertices.size();
     HugeVector<Keyed<std::uint64_t>> edges;
@@ -88,7 +88,7 @@ double largest_distance(const Mesh& mesh, const Rim& rim) {
     return std::min(1e-4 * frame_of(mesh.box()).diagonal, 0.1 * *middle);
 }
 
-/// To one digit, so that it can be read and typed.
+/// Rounds up to one digit, so that the length is easy to read and type.
 double rounded_up(double length) {
     constexpr double rounding = 1.001; // of the typed length
     const double unit = std::pow(10.0, std::floor(std::log10(length)));

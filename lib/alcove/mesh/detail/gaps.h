@@ -8,7 +8,7 @@
 namespace alcove {
 
 struct Gaps {
-    /// Vertices at exactly the position of an earlier vertex of an open edge, and the first one there.
+    /// Each vertex at exactly the position of an earlier vertex of an open edge, with the first vertex there.
     std::vector<std::array<std::uint32_t, 2>> repeated;
     /// Edges that stay open when coincident vertices are joined, but close when nearby ones are.
     std::size_t closable = 0;
@@ -18,8 +18,8 @@ struct Gaps {
     std::string advice() const;
 };
 
-/// Looks for distances up to 1e-4 of the diagonal and a tenth of the median open-edge length. `triangles` are the
-/// triangles of the mesh. Cost: about 10 ns per triangle, and 1 µs per vertex of an open edge.
+/// Looks for distances of at most 1e-4 of the diagonal, and at most a tenth of the median length of open edges.
+/// `triangles` are the triangles of the mesh. Cost: about 10 ns per triangle, and 1 µs per vertex of an open edge.
 Gaps find_gaps(const Mesh& mesh, std::span<const Triangle> triangles);
 
 }

@@ -175,7 +175,7 @@ class FaceElement {
                                                                    type == PlyType::int32));
     }
 
-    /// Whether it is the list of indices, chosen as in read_ply().
+    /// Whether the property is the list of indices, chosen as in read_ply().
     bool is_corners(const PlyProperty& property) const {
         const std::string_view name = old_.find("vertex_indices") ? "vertex_indices" : "vertex_index";
         return property.name == name && property.count_type;

@@ -1,4 +1,4 @@
-/// A set of whole numbers below a limit, which finds the next member in logarithmic time.
+/// A set of non-negative integers below a limit, which finds the next member in logarithmic time.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ class NumberSet {
   private:
     static constexpr std::size_t bits = 64;
 
-    /// A bit of a level is set if the word of that number in the level before is not zero. The last has one word.
+    /// A bit of a level is set if the word of that number in the level below is not zero. The last level has one word.
     std::vector<std::vector<std::uint64_t>> levels_{{0}};
 };
 

@@ -19,8 +19,8 @@ struct OutlierFaces {
 };
 
 /// Faces without which the diagonal of the bounding box would be less than a tenth as long: at most one face in a
-/// hundred, or two. Nothing if there are none. Cost: 50 ns per face of small meshes; less where many faces are spread
-/// out, as is usual.
+/// hundred, but up to two in small meshes. std::nullopt if there are none. Cost: 50 ns per face of small meshes; less
+/// where many faces are spread out, as is usual.
 std::optional<OutlierFaces> find_outlier_faces(const Mesh& mesh);
 
 }

@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// Base of PlyDocument, ObjDocument and GltfDocument. Valid only for the vertices and faces that were read with it: code that moves,
-/// reorders or removes them must reset `Mesh::source`.
+/// Base class of PlyDocument, ObjDocument and GltfDocument. Valid only for the vertices and faces that were read with
+/// it: code that moves, reorders or removes them must reset `Mesh::source`.
 class SourceDocument {
   public:
     virtual ~SourceDocument() = default;
@@ -20,9 +20,9 @@ class SourceDocument {
     /// The first comment of the file that begins with that text; empty if there is none.
     virtual std::string_view comment(std::string_view) const { return {}; }
 
-    /// What no Mesh represents and other formats do not store, one text each: "3 comment lines".
+    /// Descriptions of the contents that no Mesh represents and other formats do not store, such as "3 comment lines".
     virtual std::vector<std::string> contents() const = 0;
-    /// Sets of texture coordinates beyond the one in the Mesh: their total number, and one of them by vertex.
+    /// The number of sets of texture coordinates, including the one in the Mesh, and the values of one set, per vertex.
     virtual std::size_t uv_sets() const { return 1; }
     virtual std::vector<Vec2> uv_set(std::size_t) const { return {}; }
 

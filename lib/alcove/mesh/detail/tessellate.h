@@ -1,4 +1,4 @@
-/// Splits large faces, so that vertex values can represent what varies across them.
+/// Splits large faces, so that vertex values can represent details within them.
 ///
 /// A triangle is split from the midpoint of its longest edge to the opposite corner (Rivara
 /// 1984), as in OpenMesh's LongestEdgeT. An edge, even a non-manifold one, is split in all of its faces, so no vertex
@@ -62,13 +62,12 @@ struct AdaptiveTessellateOptions {
 
 /// Splits edges and faces until `split` returns false for all their points.
 ///
-/// An edge is split if `split` returns true for one of its points. The longest edge of a face is split if a point
-/// inside needs it, and whenever another edge of the face is split, which bounds the angles from below. Each edge and
-/// face is tested once. Everything else is as above.
+/// An edge is split if `split` returns true for one of its points. The longest edge of a face is split if `split`
+/// returns true for a point inside the face, and whenever another edge of the face is split, so that angles are bounded
+/// from below. Each edge and face is tested once. Everything else is as above.
 ///
-/// \throw InputError as above. std::invalid_argument if the predicate does not return one value per point. Any
-/// exception of the predicate.
-/// Cost: about 3 µs per new face, in addition to the predicate; single-threaded.
+/// \throw InputError as above; std::invalid_argument if the predicate does not return one value per point; any
+/// exception of the predicate. Cost: about 3 µs per new face, in addition to the predicate; single-threaded.
 Mesh tessellate(const Mesh& mesh, const SplitPredicate& split, const AdaptiveTessellateOptions& options);
 
 }

@@ -64,13 +64,13 @@ std::vector<std::uint32_t> weld(std::span<const Vec3d> positions, double distanc
             box.add(p);
     constexpr std::uint32_t none = UINT32_MAX;
     const std::size_t mask = std::bit_ceil(positions.size() + 1) - 1;
-    std::vector<std::uint32_t> newest(mask + 1, none), older(positions.size(), none); // lists of the cells with a hash
+    std::vector<std::uint32_t> newest(mask + 1, none), older(positions.size(), none); // per hash, the list of vertices
     std::vector<std::uint32_t> first(positions.size());
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
         first[v] = v;
         if (!is_finite(positions[v]))
             continue;
-        // The ball around a vertex reaches 2 × 2 × 2 cells of twice its radius.
+        // The ball around a vertex meets at most 2 × 2 × 2 cells whose edge is twice its radius.
         const Vec3d place = (positions[v] - box.min) / (2.0 * distance), low = glm::floor(place - 0.5);
         double nearest = distance;
         for (int corner = 0; corner < 8; ++corner)

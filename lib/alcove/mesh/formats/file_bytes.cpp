@@ -34,7 +34,7 @@ Buffer grown(Buffer bytes, std::size_t capacity) {
 
 FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
     InputFile input(file);
-    // A read into the spare byte finds the end of a file, or that it is longer than its size says.
+    // A read into the spare byte finds the end of the file, or that the file is longer than its size says.
     std::size_t capacity = input.size() + 1;
     Buffer bytes = grown({}, capacity);
     while (const std::size_t got = input.read(bytes.get() + size_, capacity - size_)) {

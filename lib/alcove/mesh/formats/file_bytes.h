@@ -21,10 +21,10 @@ class FileBytes {
     const char* end() const { return bytes_.get() + size_; } ///< a readable zero byte follows the last one
     std::size_t size() const { return size_; }
     std::string_view view() const { return {begin(), size_}; }
-    /// The bytes live at least as long as the returned pointer.
+    /// A pointer that keeps the bytes alive.
     std::shared_ptr<const void> keeper() const { return bytes_; }
 
-    /// The line of a place in the file, counted from 1. Lines end with LF, CRLF or CR.
+    /// The line of a position in the file, counted from 1. Lines end with LF, CRLF or CR.
     std::size_t line_at(const char* place) const;
 
     /// \throw InputError "file: message", in one line.

@@ -11,8 +11,8 @@ namespace alcove {
 /// read_mesh() of a file in memory.
 Mesh read_bytes(const FileBytes& file);
 
-// Each throws InputError for damage. If no line of the file says that there are no faces, read_bytes() refuses the
-// mesh.
+// Each throws InputError for damaged files. If there are no faces, but no line of the file says so, read_bytes()
+// refuses the mesh.
 Mesh read_ply(const FileBytes& file);
 Mesh read_obj(const FileBytes& file);
 Mesh read_off(const FileBytes& file);

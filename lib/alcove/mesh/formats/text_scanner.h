@@ -16,16 +16,17 @@
 namespace alcove {
 
 struct TextSyntax {
-    char comment = '\0';       ///< at the start of a token, it and the rest of its line count as the line end
+    char comment = '\0';       ///< starts a comment at the start of a token; the comment ends the line
     bool continuation = false; ///< a backslash at the end of a line joins the next one to it
-    /// A comment also begins after the last digit of a number, as some programs write it. Not after a point: "1.#IND".
+    /// A comment also begins after the last digit of a number, as some programs write it, but not after a point:
+    /// "1.#IND".
     bool comment_after_digit = false;
 };
 inline constexpr TextSyntax off_syntax{'#', false, true};
 inline constexpr TextSyntax obj_syntax{'#', true};
 
-/// The value of a token that old run-time libraries print for an infinite number or none: "1.#INF00", "-1.#IND",
-/// "1.#QNAN0e+000", or rounded like digits "1.#J" and "1.$"; also "∞". Nothing for other tokens.
+/// The value of a token that old run-time libraries print for infinity or NaN: "1.#INF00", "-1.#IND", "1.#QNAN0e+000",
+/// or rounded like digits "1.#J" and "1.$"; also "∞". std::nullopt for other tokens.
 std::optional<double> non_finite_number(std::string_view token);
 
 /// Reads a text token by token. Tokens are separated by blanks and line ends (LF, CRLF, CR). Skips a byte-order mark
@@ -114,7 +115,7 @@ class TextScanner {
         at_ = last;
         return value;
     }
-    /// The next token of this line, which has one, as a number; not finite if it is not one.
+    /// The next token of this line as a number; not finite if it is not a number. \pre the line has another token
     double number_or_nan() {
         double value = 0.0;
         const char* const last = end_of_number(value);

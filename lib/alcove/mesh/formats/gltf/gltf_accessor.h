@@ -19,7 +19,7 @@ class GltfAccessor {
     int components() const { return components_; }
     /// All components as floats; normalized integers as numbers in [0, 1] or [-1, 1].
     std::vector<float> floats() const;
-    /// Of an accessor of one component. \throw InputError for components that are not unsigned integers.
+    /// The values of an accessor with one component. \throw InputError if they are not unsigned integers.
     std::vector<std::uint32_t> indices() const;
 
   private:

@@ -36,12 +36,12 @@ class GltfDocument : public SourceDocument {
     std::vector<GltfVertices> vertices; ///< in the order of the mesh
     /// The primitive of each group of the mesh.
     struct Primitive {
-        std::size_t placement, primitive; ///< the primitive, of the mesh of the placement
+        std::size_t placement, primitive; ///< the primitive is an index in the mesh of the placement
         std::optional<std::size_t> material;
     };
     std::vector<Primitive> group_primitives;
     std::size_t uv_set_count = 0;
-    std::vector<std::string> content_counts; ///< of contents()
+    std::vector<std::string> content_counts; ///< the result of contents()
 };
 
 /// The texture coordinates of the vertices of a primitive, with v upwards; empty if it lacks the set.

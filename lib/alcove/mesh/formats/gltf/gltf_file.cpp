@@ -77,7 +77,7 @@ void GltfFile::parse_chunks() {
     }
 }
 
-/// Refuses JSON that would take much more memory or time than its size tells, before it is parsed.
+/// Before parsing, refuses JSON that would take much more memory or time than its size suggests.
 void GltfFile::check_json(std::string_view text) const {
     constexpr std::size_t most_keys = 4096; // of an object, which are searched one by one
     constexpr double bytes_per_value = 64.0;
@@ -148,7 +148,7 @@ std::string_view GltfFile::bytes_of_uri(const GltfValue& holder) {
             std::error_code error;
             if (!std::filesystem::is_regular_file(file, error))
                 holder["uri"].fail(fmt::format("the file {} is missing; put it beside this one", in_quotes(uri)));
-            // A link may lead out of the folder, too.
+            // A link may also lead out of the folder.
             const auto folder = bytes_.path().has_parent_path() ? bytes_.path().parent_path() : ".";
             const auto inside = std::filesystem::weakly_canonical(file, error)
                                     .lexically_relative(std::filesystem::weakly_canonical(folder, error));

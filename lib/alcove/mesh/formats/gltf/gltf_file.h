@@ -21,7 +21,7 @@ class GltfFile {
     GltfValue root() const { return {bytes_, json_, ""}; }
     const FileBytes& bytes() const { return bytes_; }
     bool is_binary() const { return is_binary_; }
-    /// Of the binary chunk, without padding if buffers[0] says so; empty if there is none.
+    /// The bytes of the binary chunk, without padding if buffers[0] says so; empty if there is no such chunk.
     std::string_view binary_chunk() const { return binary_chunk_; }
     bool has_binary_chunk() const { return has_binary_chunk_; }
     /// Chunks after the binary one, with their headers.
@@ -46,8 +46,8 @@ class GltfFile {
     Json json_;
     bool is_binary_ = false, has_binary_chunk_ = false;
     std::string_view json_text_, binary_chunk_, other_chunks_;
-    std::recursive_mutex mutex_;             ///< of what follows, which is read at the first use
-    std::map<std::string, FileBytes> files_; ///< of URIs: files by URI, data URIs by place
+    std::recursive_mutex mutex_;             ///< of the members below, which are filled at their first use
+    std::map<std::string, FileBytes> files_; ///< contents of URIs: files by URI, data URIs by place in the JSON
     std::map<std::string, std::string> decompressed_;
     double decompressed_bytes_ = 0.0;
 };

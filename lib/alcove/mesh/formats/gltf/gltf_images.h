@@ -14,7 +14,7 @@ struct GltfImage {
     std::string_view bytes; ///< live as long as the file
 };
 
-/// The set of UVs on which a material shows its metallic-roughness texture; empty if there is none, or if
+/// The set of UVs that a material uses for its metallic-roughness texture; empty if there is none, or if
 /// KHR_texture_transform moves it.
 std::optional<std::size_t> metallic_roughness_uv_set(const GltfFile& file, std::size_t material);
 

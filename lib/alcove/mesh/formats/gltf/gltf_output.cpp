@@ -193,7 +193,7 @@ std::size_t GltfOutput::add_colors(std::span<const std::array<std::uint16_t, 4>>
 }
 
 std::size_t GltfOutput::add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count) {
-    constexpr std::size_t restart = 0xffff; // not allowed as an index of 16 bits
+    constexpr std::size_t restart = 0xffff; // not allowed as a 16-bit index
     const bool is_short = vertex_count <= restart;
     const std::vector<std::uint16_t> shorts(is_short ? values.begin() : values.end(), values.end());
     const std::string_view bytes = is_short ? bytes_of(std::span(shorts)) : bytes_of(values);
@@ -227,7 +227,7 @@ void GltfOutput::replace_png(std::size_t number, std::string_view bytes) {
         {{"buffer", buffer_}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}});
 }
 
-/// Removes the bytes of a view that nothing else needs from the buffer, and moves what follows.
+/// Removes from the buffer the bytes of a view that nothing else needs, and moves the bytes that follow.
 void GltfOutput::take_out(std::size_t number) {
     struct Range {
         Json* place; // of the offset
@@ -266,7 +266,7 @@ void GltfOutput::take_out(std::size_t number) {
     const std::size_t count = is_last ? next - begin : (next - begin) / 4 * 4, old_size = binary_.size();
     own_binary().erase(begin, count);
     binary_ = rewritten_;
-    const std::size_t shift = is_last ? padded(old_size) - padded(begin) : count; // what follows stays aligned
+    const std::size_t shift = is_last ? padded(old_size) - padded(begin) : count; // the bytes after it stay aligned
     for (const Range& range : ranges)
         if (range.begin > begin)
             (*range.place)["byteOffset"] = range.begin - shift;

@@ -13,7 +13,7 @@
 
 namespace alcove {
 
-/// How often a key has that value in JSON.
+/// The number of times that a key has that value in JSON.
 std::size_t count_values(const Json& json, std::string_view key, const Json& value);
 
 class GltfOutput {
@@ -30,10 +30,10 @@ class GltfOutput {
     std::size_t add_positions(std::span<const float> values); ///< with their bounds
     std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
     std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
-    /// Replaces the values of an accessor if it alone has these bytes in an embedded buffer, so that files do not grow
-    /// with each bake. \return whether it did.
+    /// Replaces the values of an accessor if they are in an embedded buffer and nothing else uses their bytes, so that
+    /// files do not grow with each bake. \return whether it did.
     bool overwrite(std::size_t accessor, int component_type, std::string_view bytes);
-    /// Appends a PNG with the other values of `image`, and returns the index in `images`.
+    /// Appends a PNG with the other properties of `image`, and returns its index in `images`.
     std::size_t add_png(std::string_view bytes, Json image);
     /// Replaces an image. Its bytes are removed if nothing else uses them.
     void replace_png(std::size_t image, std::string_view bytes);
@@ -62,7 +62,7 @@ class GltfOutput {
     std::string_view chunk_, other_chunks_; ///< of the file
     std::size_t buffer_ = 0;                ///< the one that is appended to
     bool in_chunk_;                         ///< whether that is the binary chunk
-    std::string_view binary_;               ///< what the buffer has already
+    std::string_view binary_;               ///< what the buffer already has
     bool is_rewritten_ = false;             ///< whether binary_ is a copy
     std::string rewritten_;                 ///< the copy
     std::string added_;                     ///< after binary_, which is padded to a multiple of 4

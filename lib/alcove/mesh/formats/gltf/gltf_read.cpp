@@ -51,7 +51,7 @@ std::optional<GltfValue> draco_of(const GltfValue& primitive) {
     return extensions ? extensions->find("KHR_draco_mesh_compression") : std::nullopt;
 }
 
-// Takes an attribute out of a decoded primitive; empty if it is not there.
+// Takes an attribute out of a decoded primitive; empty if there is none.
 std::vector<float> take_attribute(DracoMesh& mesh, const GltfValue& extension, const std::string& name, int least,
                                   int most) {
     const auto found = mesh.attributes.find(name);
@@ -77,7 +77,7 @@ std::optional<GltfValue> accessor_of(const GltfValue& root, const GltfValue& pri
     return attributes[attribute].target(root, "accessors");
 }
 
-/// A primitive whose faces are read.
+/// Whether the faces of a primitive are read.
 bool is_surface(const GltfValue& primitive) {
     const std::size_t mode = primitive.count_or("mode", triangles);
     return mode >= triangles && mode <= triangle_fan && primitive["attributes"].has("POSITION");
@@ -87,7 +87,7 @@ bool is_surface(const GltfValue& primitive) {
 struct DecodedVertices {
     std::vector<std::size_t> primitives;
     std::vector<std::vector<std::uint32_t>> corners; ///< of the triangles of each primitive
-    std::vector<float> positions, normals, colors;   ///< three, three, and color_components each
+    std::vector<float> positions, normals, colors;   ///< three, three and color_components per vertex
     int color_components = 4;
     std::vector<Vec2> uvs;
 
@@ -143,7 +143,7 @@ class GltfReader {
   private:
     GltfValue mesh_value(std::size_t mesh) const { return root_["meshes"][mesh]; }
 
-    /// Counts vertices and corners with all instances before any are decoded.
+    /// Counts vertices and corners, including all instances, before any are decoded.
     void check_size() {
         struct Size {
             double vertices = 0.0, corners = 0.0, groups = 0.0;
@@ -269,7 +269,7 @@ class GltfReader {
             vertices.uvs = uvs_of_primitive(file_, primitive, 0);
         if (vertices.positions.empty())
             extension.fail("has no POSITION; export the file again");
-        // The values that are written refer to these vertices.
+        // Written values refer to these vertices.
         if (count != vertices.count())
             extension.fail(fmt::format("has {} vertices, but POSITION has {}; export the file again",
                                        grouped(vertices.count()), grouped(count)));
@@ -393,11 +393,12 @@ class GltfReader {
         return srgb_color({at(0), at(1), at(2)}, at(3));
     }
 
-    /// Other formats store floats: a scene and its copy in such a format then have the same coordinates.
+    /// Rounds coordinates to floats, which other formats store, so that a scene and its copy in such a format have the
+    /// same coordinates.
     void round_to_floats() {
         constexpr double tolerance = 1e-6; // of the diagonal
         const double diagonal = mesh_.box().diagonal();
-        // An array of their own, because GCC 12 at -O3 drops the conversion to float and back in a loop in place.
+        // A separate array, because GCC 12 at -O3 drops the conversion to float and back in a loop that works in place.
         const std::vector<Vec3> floats(mesh_.positions.begin(), mesh_.positions.end());
         for (std::size_t v = 0; v < floats.size(); ++v)
             if (is_finite(mesh_.positions[v]) &&

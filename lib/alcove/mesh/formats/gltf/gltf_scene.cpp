@@ -158,7 +158,7 @@ class SceneReader {
         return first;
     }
 
-    /// Of all nodes that are not in a cycle, from the roots on.
+    /// Computes the transforms of all nodes that are not in a cycle, starting at the roots.
     void find_transforms(const GltfValue& nodes) {
         transforms_.assign(parents_.size(), glm::dmat4(1.0));
         std::vector<std::size_t> to_visit;
@@ -176,7 +176,7 @@ class SceneReader {
         }
     }
 
-    /// The nodes of the scene, depth first. A scene may list a node twice, or below another one.
+    /// Finds the nodes of the scene, depth first. A scene may list a node twice, or a node together with its ancestor.
     void find_visible(const GltfValue& nodes) {
         std::vector<char> seen(parents_.size(), 0);
         std::vector<std::size_t> to_visit = first_nodes();

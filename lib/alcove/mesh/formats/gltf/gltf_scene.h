@@ -20,7 +20,7 @@ struct GltfPlacement {
 };
 
 /// The meshes of the default scene, or of all root nodes if there is none, in depth-first order. With
-/// EXT_mesh_gpu_instancing, one entry per instance. A skinned mesh is in its bind pose, where its first joint has it.
+/// EXT_mesh_gpu_instancing, one entry per instance. A skinned mesh is in its bind pose, placed by its first joint.
 /// \throw InputError if a node is its own ancestor or has two parents, or a transform is not finite; LimitError for
 /// more than a million instances.
 std::vector<GltfPlacement> placements_of(GltfFile& file);

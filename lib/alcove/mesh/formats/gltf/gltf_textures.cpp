@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char *pbr = "pbrMetallicRoughness", *metallic_roughness = "metallicRoughnessTexture";
 
-/// The index of the new texture in `textures`. `texture` and `image` are what it has besides the image.
+/// The index of the new texture in `textures`. `texture` and `image` hold their properties other than the image itself.
 std::size_t append(GltfOutput& output, const GltfTexture& added, Json texture, Json image) {
     add_comments(image, {&added.comment, added.comment.empty() ? 0u : 1u});
     texture["source"] = output.add_png(added.png, std::move(image));
@@ -35,7 +35,7 @@ std::size_t add_material(Json& json, Json material = Json::object()) {
     return json["materials"].size() - 1;
 }
 
-/// How many primitives of the file have that material; none: no material.
+/// The number of primitives of the file with that material, or without one if `material` is empty.
 std::size_t count_uses(const GltfValue& root, const std::optional<std::size_t>& material) {
     std::size_t uses = 0;
     const GltfValue meshes = root["meshes"];
@@ -48,7 +48,7 @@ std::size_t count_uses(const GltfValue& root, const std::optional<std::size_t>& 
     return uses;
 }
 
-/// Whether a number is anywhere in the JSON.
+/// Whether a number occurs anywhere in the JSON.
 bool has_number(const Json& json, std::size_t number) {
     if (!json.is_structured())
         return json == number;
@@ -69,7 +69,7 @@ bool is_replaceable(const Json& json, std::size_t number, std::size_t uses) {
            !is_used_by_extensions(number) && !is_used_by_extensions(image);
 }
 
-/// Whether the program that made `added` made the image of a texture, too.
+/// Whether the program that made `added` also made the image of a texture.
 bool is_made_by_same(const Json& json, std::size_t number, const GltfTexture& added) {
     const std::string program = added.comment.substr(0, added.comment.find(' ') + 1);
     const Json& texture = json["textures"].at(number);

@@ -10,8 +10,9 @@
 
 namespace alcove {
 
-/// Gives the primitives of each texture its material, or a copy of it if others have it too. `root` is the input.
-/// \return messages about what is replaced.
+/// Adds each texture to its material. If other primitives use that material too, those that show the texture get a copy
+/// of it. `root` is the input.
+/// \return messages about replaced textures.
 std::vector<std::string> add_textures(GltfOutput& output, const GltfValue& root, std::span<const GltfTexture> textures);
 
 /// Adds the texture to all materials of the mesh of a new file.

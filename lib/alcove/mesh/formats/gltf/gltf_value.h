@@ -1,4 +1,4 @@
-/// A value in the JSON of a glTF file together with its place, so that errors can name it.
+/// A value in the JSON of a glTF file together with its location, so that errors can name it.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"

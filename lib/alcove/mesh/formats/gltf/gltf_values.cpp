@@ -18,7 +18,7 @@
 namespace alcove {
 namespace {
 
-/// A node that shows a mesh, with the placements that it has: several with EXT_mesh_gpu_instancing.
+/// A node that shows a mesh, and its placements: several with EXT_mesh_gpu_instancing.
 struct Instance {
     std::size_t node;
     std::vector<std::size_t> placements;
@@ -106,7 +106,7 @@ class ValueWriter {
         });
     }
 
-    /// The mean over the placements of the instance. Directions are turned into the space of the node.
+    /// The mean over the placements of the instance. Directions are transformed to the space of the node.
     InstanceValues values_of(const Instance& instance) const {
         InstanceValues values;
         for (const Attribute* attribute : attributes_) {
@@ -163,7 +163,7 @@ class ValueWriter {
         to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(vertices.count * components));
     }
 
-    /// A shader transforms them back as it does normals.
+    /// A shader transforms them back as it transforms normals.
     static void to_node(std::vector<float>& directions, const glm::dmat4& to_scene) {
         const glm::dmat3 back = glm::transpose(glm::dmat3(to_scene));
         for (std::size_t i = 0; i + 2 < directions.size(); i += 3) {
@@ -220,13 +220,13 @@ class ValueWriter {
             const auto set = [&](const std::string& name, std::size_t accessor) {
                 for (const std::size_t p : vertices.primitives) {
                     primitives[p]["attributes"][name] = accessor;
-                    // Or else programs would read the old values.
+                    // Otherwise programs would read the old values.
                     if (const auto draco = Json::json_pointer("/extensions/KHR_draco_mesh_compression/attributes");
                         primitives[p].contains(draco))
                         primitives[p][draco].erase(name);
                 }
             };
-            // The accessor of an earlier bake, unless others have it too, such as a copy made now.
+            // The accessor of an earlier bake, unless other attributes use it too, such as those of a copy made now.
             const auto earlier = [&](const std::string& name) -> std::optional<std::size_t> {
                 const Json& attributes = primitives[vertices.primitives.front()]["attributes"];
                 if (!made_before_ || mesh >= document_.file->root()["meshes"].size() || !attributes.contains(name) ||
@@ -286,7 +286,7 @@ class ValueWriter {
             }
     }
 
-    /// How many primitives of the file have each accessor as an attribute.
+    /// Counts the primitives of the file that use each accessor as an attribute.
     void count_uses() {
         for (const Json& mesh : document_.file->root().json()["meshes"])
             for (const Json& primitive : mesh["primitives"])

@@ -23,7 +23,7 @@ bool colors_are_ao(const Mesh& mesh);
 std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> values);
 
 /// Adds the attributes and colours of `mesh`. Instances of one glTF mesh share values that differ by an RMSE of at most
-/// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about that, and what is replaced.
+/// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about copies and replaced values.
 std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh);
 
 /// Puts comments into the extras of an asset or image. Each replaces those that begin with the same word.

@@ -65,7 +65,7 @@ SplitVertices split(const Mesh& mesh) {
     return result;
 }
 
-/// Builds a file with one node for a mesh that does not come from one.
+/// Builds a file with one node for a mesh that does not come from a glTF file.
 class GltfMaker {
   public:
     GltfMaker(GltfOutput& output, const Mesh& mesh) : output_(output), mesh_(mesh), vertices_(split(mesh)) {
@@ -121,8 +121,8 @@ class GltfMaker {
         return result;
     }
 
-    /// Floats; relative to the centre of the mesh, which the node is moved to, if floats would move a vertex by more
-    /// than 1e-6 of the diagonal.
+    /// Adds the positions as floats. If floats would move a vertex by more than 1e-6 of the diagonal, they are relative
+    /// to the centre of the mesh, and the node is moved there.
     std::size_t add_positions() {
         constexpr double tolerance = 1e-6;
         const Box box = mesh_.box();
@@ -159,7 +159,7 @@ class GltfMaker {
             normal = unit_or_zero(Vec3d(normal));
             if (normal == Vec3(0.0f))
                 normal = of_faces[vertices_.source[i]];
-            if (normal == Vec3(0.0f)) // glTF has none without a direction
+            if (normal == Vec3(0.0f)) // glTF has no normals without a direction
                 normal = {0.0f, 0.0f, 1.0f};
             floats.insert(floats.end(), {normal.x, normal.y, normal.z});
         }
@@ -306,7 +306,7 @@ std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::pat
                                     std::span<const GltfTexture> textures) {
     try {
         return write_checked(mesh, file, textures);
-    } catch (const Json::exception& error) { // of parts that reading does not look at
+    } catch (const Json::exception& error) { // from parts that reading ignores
         throw InputError(fmt::format("{}: its JSON is not valid glTF: {}; export it again", mesh.name, error.what()));
     }
 }

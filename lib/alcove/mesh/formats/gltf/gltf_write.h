@@ -22,9 +22,9 @@ struct GltfTexture {
     bool is_packed = false; ///< it also replaces the metallic-roughness texture of the material
 };
 
-/// write_mesh() to a .glb or .gltf, with textures. Those that the program made earlier, and metallic-roughness textures
-/// that are replaced, are removed where nothing else uses them. For a mesh that does not come from glTF, the one texture
-/// belongs to all materials.
+/// As write_mesh() to a .glb or .gltf, with textures. Textures that the program made earlier, and metallic-roughness
+/// textures that are replaced, are removed where nothing else uses them. For a mesh that does not come from glTF, the
+/// one texture belongs to all materials.
 std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
                                     std::span<const GltfTexture> textures);
 

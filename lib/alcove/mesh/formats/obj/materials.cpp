@@ -80,7 +80,7 @@ void read_property(std::string_view keyword, std::string_view values, Material& 
         material.textures.emplace_back(keyword);
 }
 
-/// Adds the materials of the text of a file. The first of a name counts.
+/// Adds the materials in the text of a file. If a name occurs twice, the first material counts.
 void parse(std::string_view text, Materials& materials) {
     Material ignored, *current = &ignored; // properties before the first name belong to no material
     while (!text.empty()) {
@@ -110,7 +110,7 @@ std::optional<std::filesystem::path> find_file(std::string name, const std::file
     return {};
 }
 
-/// The names in a 'mtllib' line: one, perhaps with blanks in it or in quotes, or several.
+/// The names in a 'mtllib' line: one name, which may contain blanks or be in quotes, or several names.
 std::vector<std::string> names_in(std::string_view line, const std::filesystem::path& folder) {
     if (line.size() > 1 && line.front() == '"' && line.back() == '"')
         line = line.substr(1, line.size() - 2);
@@ -140,7 +140,7 @@ void read_file(const std::string& name, const std::filesystem::path& folder, Mat
     }
 }
 
-/// What the image lacks of the materials that faces use, in one line; empty if nothing.
+/// A line about the properties of the used materials that the image does not show; empty if there are none.
 std::string left_out(const std::set<const Material*>& used) {
     std::size_t textures = 0, transparent = 0, emitting = 0;
     std::set<std::string_view> keywords;

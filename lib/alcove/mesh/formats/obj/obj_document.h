@@ -38,7 +38,7 @@ class ObjDocument : public SourceDocument {
         std::string name;
     };
     std::vector<MaterialUse> material_uses;  ///< in file order
-    std::vector<std::string> material_files; ///< what follows each 'mtllib': one name or several
+    std::vector<std::string> material_files; ///< the rest of each 'mtllib' line: one name or several
 
     std::size_t weights = 0;    ///< vertices whose fourth coordinate is not 1
     std::size_t mrgb_lines = 0; ///< comments that hold colours

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_name = 16;   // tokens: a name with blanks consists of several
-constexpr std::size_t most_lookups = 4096; // of files, so that a hostile text ends soon
+constexpr std::size_t most_lookups = 4096; // of files; ends the work on a hostile text
 
 bool is_absolute(std::string_view name) {
     const bool has_drive = name.size() > 2 && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
@@ -48,7 +48,7 @@ class NameMover {
     }
 
   private:
-    /// Takes the most tokens that together name a file.
+    /// Takes as many tokens as possible that together name a file.
     void move_line(const char* keyword) {
         line_.move_to(keyword);
         line_.word("a keyword");
@@ -87,7 +87,7 @@ class NameMover {
         return true;
     }
 
-    /// The name as a path, if it points to a file from the input folder.
+    /// The name as a path, if it points to a file as seen from the input folder.
     std::optional<fs::path> file_named(std::string_view name) {
         std::string with_slashes(name);
         std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
@@ -99,7 +99,7 @@ class NameMover {
         return {};
     }
 
-    /// Links are followed in folders only: a library that is a link names its textures from where the link is.
+    /// Links are followed only in folders: a library that is itself a link names its textures relative to the link.
     std::string name_seen_from_output(const fs::path& file) const {
         std::error_code error;
         const fs::path folder = fs::canonical(file.parent_path(), error);

@@ -10,7 +10,7 @@
 
 namespace alcove {
 
-/// A piece of a text, and what is written instead.
+/// A piece of a text, and its replacement.
 struct Replacement {
     std::size_t begin, end;
     std::string text;

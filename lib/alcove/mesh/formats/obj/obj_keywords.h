@@ -20,7 +20,7 @@ std::optional<std::size_t> obj_text_keyword(std::string_view keyword);
 /// Whether other files are named on lines of that keyword.
 bool names_files(std::string_view keyword);
 
-/// Whether an unknown keyword is one of `v`, `vt`, `vn` and `f` with something before or right after it.
+/// Whether an unknown keyword is one of `v`, `vt`, `vn` and `f` with other characters before or directly after it.
 bool hides_data_keyword(std::string_view keyword);
 
 }

@@ -12,7 +12,7 @@ bool begins_line(std::string_view text, std::size_t at) {
     return at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r';
 }
 
-/// Appends the colours of one line; whether it is sound.
+/// Appends the colours of one line. \return whether the line is valid.
 bool add_colors(std::string_view digits, std::vector<Color>& colors) {
     constexpr std::size_t digits_per_color = 8, rgb = 0xffffff;
     for (; digits.size() >= digits_per_color; digits.remove_prefix(digits_per_color)) {

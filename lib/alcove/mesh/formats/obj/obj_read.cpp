@@ -89,8 +89,8 @@ class ObjReader {
 
     std::size_t offset_of(const char* place) const { return static_cast<std::size_t>(place - file_.begin()); }
 
-    /// Reads the rest of the line; what is not a number is not finite. Whether there are from `least` to
-    /// `values.size()` tokens, all of them finite numbers.
+    /// Reads the rest of the line; tokens that are not numbers become non-finite values. \return whether there are from
+    /// `least` to `values.size()` tokens, all of them finite numbers.
     bool read_values(std::span<double> values, std::size_t least) {
         std::size_t count = 0;
         bool finite = true;

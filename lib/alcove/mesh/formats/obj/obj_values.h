@@ -1,4 +1,4 @@
-/// What an OBJ file says about vertices and corners besides positions and faces, as it is read, and how a Mesh gets it.
+/// The data of an OBJ file about vertices and corners besides positions and faces, and how a Mesh gets them.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
@@ -19,11 +19,11 @@ struct CornerReference {
 struct References {
     std::int64_t largest = 0;         ///< the largest index
     const char* largest_at = nullptr; ///< where it is
-    std::size_t missing = 0;          ///< references before the first item
+    std::size_t missing = 0;          ///< references that precede the first item
     const char* missing_at = nullptr; ///< where the first of them is
 };
 
-/// Lines of one keyword whose values are not what the format says.
+/// Lines of one keyword whose values violate the format.
 struct DamagedLines {
     std::size_t count = 0;
     const char* first = nullptr;

@@ -47,7 +47,7 @@ class ColorWriter {
     std::array<std::string, 256> decimals_;
 };
 
-/// Copies a text piece by piece, with the replacements that it meets.
+/// Copies a text piece by piece, and makes the replacements in it.
 class TextCopy {
   public:
     TextCopy(std::string_view text, const std::vector<Replacement>& replacements)
@@ -94,7 +94,7 @@ void recolor(TextCopy& copy, const ObjDocument& document, const FileBytes& text,
     }
 }
 
-/// Writes the text of the input. \return what was changed besides colours, and what the colours replace.
+/// Writes the text of the input. \return messages about changes other than colours, and about what the colours replace.
 std::vector<std::string> write_text(AtomicFile& output, const ObjDocument& document, const Mesh& mesh,
                                     const std::filesystem::path& file) {
     if (mesh.added_colors.empty() && document.file_lines.empty()) {

@@ -12,7 +12,7 @@
 namespace alcove {
 namespace {
 
-/// Limit for counting tokens on the rest of a line: more than any declared values of a vertex.
+/// Limit for counting tokens on the rest of a line: more than the values that a vertex can declare.
 constexpr std::size_t most_tokens = 16;
 
 /// The order of groups is chosen from this many vertices.
@@ -202,7 +202,8 @@ class OffReader {
             }
         if (text_.at_line_end())
             return;
-        // Vertices may share a line; but if the lines of all have equally many values, the rest is not declared.
+        // Vertices may share a line. But if every vertex line has the same number of values, those beyond the declared
+        // ones are undeclared values.
         if (v == 0 ? every_vertex_line_has(tokens) : undeclared_ == v) {
             ++undeclared_;
             text_.next_line();

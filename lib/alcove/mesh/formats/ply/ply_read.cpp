@@ -40,7 +40,7 @@ std::optional<std::array<const PlyProperty*, N>> find_all(const PlyElement& elem
     return properties;
 }
 
-/// The element that looks like the faces under another name: with a list of whole numbers.
+/// An element that may be the faces under another name, because it has a list of whole numbers.
 const PlyElement* misnamed_faces(const PlyDocument& document) {
     for (const PlyElement& element : document.elements)
         if (element.name != "vertex" && element.name != "range_grid") // the points of a range scan, in rows
@@ -103,7 +103,7 @@ void read_vertex_uvs(const PlyElement& vertices, Mesh& mesh) {
             return read_components(vertices, *properties, mesh.vertex_uvs);
 }
 
-/// The largest value of full brightness: the values themselves tell the range.
+/// The value that stands for full brightness, as inferred from the largest value.
 double full_scale(double largest, bool integral) {
     constexpr double rounding = 1e-3;
     return largest <= 1.0 + rounding && !integral ? 1.0 : largest <= 255.0 + rounding ? 255.0 : 65535.0;
@@ -190,7 +190,7 @@ void read_corner_uvs(const PlyElement& faces, Mesh& mesh) {
                                 " no texture coordinates for each corner; (0, 0) is used");
 }
 
-/// Warns of bytes behind the rows. Quotes the first line of a text.
+/// Warns of bytes after the rows. If they are text, quotes its first line.
 void warn_of_rest(const FileBytes& file, PlyFormat format, std::size_t bytes, Mesh& mesh) {
     const std::string_view rest = file.view().substr(file.size() - bytes);
     const bool is_text = format == PlyFormat::ascii;

@@ -33,7 +33,7 @@ class RowBuffer {
 
   private:
     void flush() {
-        // Estimate the total size from the first rows, with a margin, as growing would copy them.
+        // Estimate the total size from the first rows, with a margin, since growing the array would copy them.
         if (rows_.empty() && ended_ > 0)
             reserve_huge(rows_, std::min(max_bytes_, used_ * element_.count / ended_ * 9 / 8));
         rows_.insert(rows_.end(), block_.begin(), block_.begin() + static_cast<std::ptrdiff_t>(used_));
@@ -55,7 +55,7 @@ class TextRows {
         const std::size_t width = element.properties.size();
         if (width == 0)
             return;
-        // A value takes a digit and a separator, which may be missing after the last value of the file.
+        // A value takes at least a digit and a separator, which may be missing after the last value of the file.
         text_.at_end();
         if (element.count > (text_.bytes_left() + 1) / (2 * width))
             text_.fail(grouped(element.count) + " rows of element " + in_quotes(element.name) +

@@ -149,8 +149,8 @@ std::string header_comments(const PlyDocument& document, const Mesh& mesh) {
     return text;
 }
 
-/// Lists the properties of the vertices that the columns replace, except whole colours, and values that a comment says
-/// an earlier run of the same program made.
+/// Lists the vertex properties that the columns replace, except complete colours and values that, according to a
+/// comment, an earlier run of the same program made.
 void list_replaced(const PlyDocument& document, const Mesh& mesh, std::vector<std::string>& lost) {
     const auto list = [&](const std::string& name) {
         if (document.has_vertex_property(name))

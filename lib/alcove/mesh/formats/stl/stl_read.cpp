@@ -70,8 +70,7 @@ bool is_text(const FileBytes& file) {
     });
 }
 
-/// Accepts what exporters make of the keywords: `end solid part`, `endsolidpart`, a solid without its first or last
-/// line.
+/// Accepts the variants that exporters write: `end solid part`, `endsolidpart`, a solid without its first or last line.
 class TextReader {
   public:
     explicit TextReader(const FileBytes& file) : file_(file), text_(file, file.begin()) {}
@@ -106,7 +105,7 @@ class TextReader {
         text_.next_line(); // the name
     }
 
-    /// Notes a line that is not of a solid, such as the last one of a web page.
+    /// Notes a line that does not belong to a solid, such as the last one of a web page.
     void skip(std::string_view word) {
         for (const char* keyword : {"normal", "outer", "loop", "vertex", "endloop", "endfacet", "end"})
             if (same_word(word, keyword))
@@ -115,7 +114,7 @@ class TextReader {
             first_skipped_ = word;
     }
 
-    /// The normal is not used and may be missing or of words that are not numbers.
+    /// The normal is ignored, so it may be missing or consist of words that are not numbers.
     void read_facet() {
         expect("facet");
         if (next_is("normal"))
