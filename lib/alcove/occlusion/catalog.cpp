@@ -35,7 +35,7 @@ constexpr bool unbounded_radius() {
         return false;
 }
 
-/// With the radius of probing methods limited to max_probe_distance.
+/// The estimator with these settings; limits the radius of probing methods to max_probe_distance.
 template <class E>
 E estimator_of(const Settings& settings) {
     E estimator = with_settings<E>(settings);

@@ -86,7 +86,7 @@ float start_height(const F& field, float radius) {
     return std::max(0.1f * resolution(field), ray_offset(radius));
 }
 
-/// Surfels with their reference ao, which an estimator that is fitted to a mesh learns from.
+/// Surfels with their reference ao, to which an estimator is fitted.
 struct Labels {
     std::vector<Surfel> surfels;
     std::vector<float> ao;
@@ -123,10 +123,10 @@ void probe_along_normal(const F& field, const SurfelBatch& surfels, float height
 /// neighbours in space, so a batch touches few grid bricks. Independent of the order of the surfels.
 std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 
-/// Every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels without
-/// a normal get ChannelInfo::missing; covered ones get 0 in channels of visibility. The values depend neither on the
-/// number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: the estimator, per
-/// surfel.
+/// Computes every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels
+/// without a normal get ChannelInfo::missing; covered ones get 0 in channels of visibility. The values depend neither
+/// on the number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: the
+/// estimator, per surfel.
 template <class F, Estimator<F> E>
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const F& field,
                        const E& estimator, ChannelSet wanted, const Progress& progress = {}) {
@@ -179,7 +179,7 @@ ChannelValues evaluate(std::span<const Surfel> surfels, const F& field, const E&
     return evaluate(surfels, spatial_order(surfels), field, estimator, wanted, progress);
 }
 
-/// The ao channel only: one value per surfel, 1 for surfels without a normal.
+/// Computes only the ao channel: one value per surfel, 1 for surfels without a normal.
 template <class F, Estimator<F> E>
 std::vector<float> evaluate_ao(std::span<const Surfel> surfels, const F& field, const E& estimator,
                                const Progress& progress = {}) {

@@ -28,7 +28,7 @@ struct RaySurface::Scene {
     RTCScene scene = rtcNewScene(device);
     std::vector<TrianglePair> pairs; // Embree's quads
     std::vector<Fan> fans;           // triangles that are not among the pairs
-    const Vec3* vertices = nullptr;  // Embree's
+    const Vec3* vertices = nullptr;  // Embree's copy
 
     Scene() = default;
     Scene(const Scene&) = delete;
@@ -55,7 +55,7 @@ void RaySurface::Scene::build(std::span<const Vec3> positions, std::span<const T
         std::memcpy(to, items.data(), items.size_bytes());
         return to;
     };
-    // Builds in a quarter of the time of higher quality, and rays are as fast.
+    // Takes a quarter of the build time of higher quality, and rays are as fast.
     constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
     rtcSetSceneBuildQuality(scene, quality);
     // Embree splits a quad into the same two triangles as a pair, with half as many primitives to build from.

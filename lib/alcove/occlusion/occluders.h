@@ -42,11 +42,11 @@ class RaySurface {
     /// point, for rays that hit. `hits` has one entry per ray.
     void find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const;
 
-    /// Replaces `found` by the triangles within `distance` of a point, and some that are further away. Leaves
-    /// out duplicates, and triangles of fans of thousands around a vertex. Cost: about 0.3 µs if neighbouring points
-    /// follow each other, and 10 ns per triangle.
+    /// Replaces `found` by the triangles within `distance` of a point, and some that are further away. Leaves out
+    /// duplicates, and triangles of fans with thousands of triangles around a vertex. Cost: about 0.3 µs if
+    /// neighbouring points follow each other, and 10 ns per triangle.
     void find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const;
-    /// The positions that the constructor got; null if no triangle can be hit.
+    /// The positions given to the constructor; null if no triangle can be hit.
     const Vec3* positions() const;
     /// The triangles that find_near() searches, as corners 0, 1, 3 and 2, 3, 1; the second may be degenerate.
     std::span<const std::array<std::uint32_t, 4>> pairs() const;

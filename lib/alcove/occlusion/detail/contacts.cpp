@@ -16,7 +16,7 @@
 namespace alcove {
 namespace {
 
-/// Whether a point lies in a solid, as the faces that a ray crosses say: more of them from behind than from the front.
+/// Whether a point lies in a solid: a ray from it meets more faces from behind than from the front.
 bool is_inside(const RaySurface& surface, const Vec3& point, const Vec3& direction, float offset) {
     constexpr int most_hits = 256;
     std::array<SurfaceHit, RayBatch::capacity> hits;
@@ -82,11 +82,11 @@ class ContactSearch {
         return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
     }
 
-    /// Own faces, and the others that the surfel touches.
+    /// Finds the surfel's own faces, and the others that it touches.
     void sort_out_faces(const Surfel& surfel) {
         own_faces_.clear();
         other_faces_.clear();
-        std::sort(others_.begin(), others_.end()); // the tree has them in any order
+        std::sort(others_.begin(), others_.end()); // the tree returns them in any order
         for (const Triangle& t : own_)
             add_face(t, surfel, own_faces_);
         const bool by_normal = own_faces_.empty();

@@ -38,7 +38,7 @@ struct Fan::Search {
     static Search of(const RaySegment& ray) {
         const Vec3d begin = ray.origin + ray.near * ray.direction;
         const Vec3d end = std::isfinite(ray.far) ? ray.origin + ray.far * ray.direction : ray.direction;
-        constexpr double smallest_sine = 1e-7; // else rounding decides, and no direction is ruled out
+        constexpr double smallest_sine = 1e-7; // below this, rounding would decide, so no direction is ruled out
         Vec3d across = glm::cross(begin, end);
         if (glm::length(across) <= smallest_sine * glm::length(begin) * glm::length(end))
             across = Vec3d(0.0);
@@ -102,7 +102,7 @@ std::optional<Fan::Hit> Fan::hit(std::uint32_t triangle, const RaySegment& from_
     const Vec3d normal = glm::cross(a, b);
     const double toward = glm::dot(normal, from_hub.direction);
     const double distance = -glm::dot(normal, from_hub.origin) / toward;
-    if (!(distance >= from_hub.near && distance <= from_hub.far)) // parallel, too
+    if (!(distance >= from_hub.near && distance <= from_hub.far)) // or NaN: parallel
         return {};
     const Vec3d p = from_hub.origin + distance * from_hub.direction;
     const double area2 = glm::dot(normal, normal);
@@ -115,7 +115,7 @@ std::optional<Fan::Hit> Fan::hit(std::uint32_t triangle, const RaySegment& from_
 std::optional<Fan::Hit> Fan::find(const RaySegment& ray, Wanted wanted) const {
     RaySegment from_hub = ray;
     from_hub.origin -= hub_;
-    // The ray may pass all corners at a distance.
+    // The ray may pass the hub at a distance beyond all corners.
     const double closest = std::clamp(-glm::dot(from_hub.origin, ray.direction), ray.near, ray.far);
     const Vec3d p = from_hub.origin + closest * ray.direction;
     std::optional<Hit> found;

@@ -34,11 +34,11 @@ struct Sources {
         });
     }
 
-    /// The reach of a fit between these ranks. A reach of twice the spacing has about twelve sources. In steps, so that
-    /// few neighbouring blocks differ: a change of the reach may be visible.
+    /// The reach of a fit between these ranks. A reach of twice the spacing has about twelve sources. It varies in
+    /// steps, so that few neighbouring blocks differ, since a change of the reach may be visible.
     float reach(std::size_t begin, std::size_t end) const {
         constexpr std::size_t beside = 2;
-        constexpr float spacings_per_reach = 1.0f; // of neighbours along the curve, who are further apart
+        constexpr float spacings_per_reach = 1.0f; // of neighbours along the curve, which are further apart
         constexpr float steps = 2.0f;              // per octave
         const auto at = [&](std::size_t rank) {
             return static_cast<std::size_t>(std::lower_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
@@ -101,19 +101,20 @@ class Interpolator {
         return static_cast<double>(evaluated_) / static_cast<double>(std::max<std::size_t>(count(), 1));
     }
 
-    /// The values of the surfel at a rank of the order given.
+    /// The values of the surfel at a rank of the given order.
     const float* values(std::size_t rank) const { return &values_[used_ * ranks_[rank]]; }
 
   private:
     enum class State : std::uint8_t { unknown, to_evaluate, evaluated, interpolated };
-    /// Where a surfel is; as there are millions, nothing else of it is copied.
+    /// The position and normal of a surfel; there are millions, so nothing else is copied.
     struct Place {
         Vec3 position, normal;
     };
 
     std::size_t count() const { return indices_.size(); }
 
-    /// One of each `stride` surfels, at random, as those of two sides or of grids alternate along the curve.
+    /// Chooses one of every `stride` surfels at random, since surfels of two sides or of grids alternate along the
+    /// curve.
     static bool is_chosen(std::uint32_t rank, std::size_t stride) {
         return rank % stride == hash(static_cast<std::uint32_t>(rank / stride)) % stride;
     }
@@ -231,7 +232,7 @@ class Interpolator {
     std::size_t used_;                   // values per surfel
     HugeVector<std::uint32_t> ranks_;    // index into the next arrays, by rank in the order
     HugeVector<Place> places_;           // along the curve, those of equal surfels merged
-    std::vector<std::uint32_t> indices_; // of the first of each among surfels_
+    std::vector<std::uint32_t> indices_; // index of the first surfel of each place
     HugeVector<float> values_;
     HugeVector<State> states_;
     std::size_t evaluated_ = 0;

@@ -1,4 +1,4 @@
-/// Evaluates a method at part of densely spaced surfels and interpolates the others.
+/// Evaluates a method at some of many densely spaced surfels, and interpolates the others.
 #pragma once
 
 #include "alcove/occlusion/catalog.h"
@@ -10,12 +10,12 @@
 namespace alcove {
 
 /// Where to evaluate. A method is evaluated at every `stride`-th surfel along the Morton curve. Where its ao deviates
-/// by more than `tolerance` from a local linear fit, it is also evaluated at every (stride / 4)-th surfel, and so on, at
-/// last at all of them. The other surfels get the values of the fit (see local_fit()).
+/// by more than `tolerance` from a local linear fit, it is also evaluated at every (stride / 4)-th surfel, and so on,
+/// finally at all of them. The other surfels get the values of the fit (see local_fit()).
 struct Interpolation {
     std::size_t stride = 16; ///< a power of 4, > 1
     float tolerance = 0.02f; ///< > 0
-    double max_share = 1.0;  ///< of the surfels to evaluate: with more, interpolation does not pay
+    double max_share = 1.0;  ///< largest share of the surfels to evaluate: above it, interpolation does not pay
 };
 
 struct InterpolatedValues {
@@ -23,10 +23,11 @@ struct InterpolatedValues {
     double share = 1.0; ///< of the surfels with a normal, at which the method was evaluated
 };
 
-/// Completes surfels before they are evaluated, such as by their contacts; `indices` are theirs among all.
+/// Completes surfels before they are evaluated, for example with their contacts. `indices` are their indices among all
+/// surfels.
 using PrepareSurfels = std::function<void(std::span<const std::uint32_t> indices, std::span<Surfel> surfels)>;
 
-/// Evaluates the channels of a run, which may be ao and the bent normal. `order` is the spatial_order() of the surfels.
+/// Evaluates the channels of a run: ao, the bent normal, or both. `order` is the spatial_order() of the surfels.
 /// Surfels that are known to be covered are not interpolated. Surfels with the same position and normal get the same
 /// values. The values depend neither on the number of threads nor on the order of the surfels. \return std::nullopt if
 /// more than `max_share` of the surfels would have to be evaluated. Cost: the method at a share of the surfels, and

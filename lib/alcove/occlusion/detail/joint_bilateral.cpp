@@ -136,9 +136,9 @@ void JointBilateral::fit_model() {
         sum += open, sum2 += double(open) * open;
         unexplained += double(error) * error - 1.3 * noise_ * variance_of(open);
     }
-    // On scans the model's error deviates 0.2 to 0.4 times as much as the truth, whose deviation is close to that of
-    // the predictions: hence 0.16 = 0.4². The error is larger where the residuals exceed the noise of the rays, which
-    // is at most 1.3 times noise_.
+    // On scans, the standard deviation of the model's error is 0.2 to 0.4 times that of the truth, which is close to
+    // that of the predictions: hence 0.16 = 0.4². The error is larger where the residuals exceed the noise of the rays,
+    // which is at most 1.3 times noise_.
     const auto count = static_cast<double>(size());
     const double variance = sum2 / count - (sum / count) * (sum / count);
     model_variance_ = static_cast<float>(std::max({0.16 * variance, unexplained / count, 4e-4}));

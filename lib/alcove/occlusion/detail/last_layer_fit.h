@@ -17,7 +17,7 @@ class LastLayerFit {
 
     /// Adds the first `ao.size()` surfels of a batch; ao is 1 plus the value of the network.
     void add(const RingNetwork::Hidden& h, std::span<const float> ao);
-    /// The fitted layer; the trained one without examples.
+    /// The fitted layer, or the trained one if there are no examples.
     RingNetwork::LastLayer layer() const;
 
   private:

@@ -109,7 +109,7 @@ SurfelCells::Cell SurfelCells::cell_at(const Vec3& p) const {
     return {along(0), along(1), along(2)};
 }
 
-/// Where a block is, or the free slot where it belongs.
+/// The slot of a block, or the free slot where it belongs.
 std::size_t SurfelCells::slot_of(std::uint64_t key) const {
     const std::uint64_t mixed = key * 0x9e3779b97f4a7c15; // Fibonacci hashing (Knuth 1998)
     std::size_t slot = mixed >> 32 & (blocks_.size() - 1);

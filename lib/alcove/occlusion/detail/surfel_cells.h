@@ -20,8 +20,8 @@ struct Bounds {
     }
 };
 
-/// The surfels with a normal, by cubic cells. Blocks of 4³ cells are in a hash table, so that neighbouring cells share
-/// cache lines. `const` use is thread-safe.
+/// The surfels with a normal, sorted into cubic cells. Blocks of 4³ cells are in a hash table, so that neighbouring
+/// cells share cache lines. `const` use is thread-safe.
 class SurfelCells {
   public:
     /// Cost: about 40 ns per surfel.

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t max_surfels = 4096;
 
-/// Voxels between two faces of a solid, or two sheets, from which any grid alignment resolves them.
+/// The distance in voxels between two faces of a solid, or two sheets, from which a grid resolves them in any
+/// alignment.
 constexpr float resolved_solid = 1.5f, resolved_sheet = 2.5f;
 
 /// Start of the rays, unit space: clears the rounding error of the faces around the surfel.

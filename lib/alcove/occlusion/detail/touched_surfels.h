@@ -12,7 +12,7 @@ namespace alcove {
 
 /// The surfels with a triangle within `offset` that is not an own face, sorted. std::nullopt if a search around each
 /// surfel is faster: for few surfels among many triangles, or for triangles that cross very many cells of surfels. The
-/// result does not depend on the number of threads. Cost: about 0.1 µs per surfel, and 0.2 µs per two triangles.
+/// result does not depend on the number of threads. Cost: about 0.1 µs per surfel, and 0.2 µs per pair of triangles.
 std::optional<std::vector<std::uint32_t>> find_touched(std::span<const Surfel> surfels, const RaySurface& surface,
                                                        float offset, const IsOwnFace& is_own);
 

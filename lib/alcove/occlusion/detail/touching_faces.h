@@ -24,8 +24,8 @@ struct Contact {
 /// The contact of a surfel with `others`, faces within `offset` of it that are not its `own`.
 ///
 /// Another face counts if the surfel's hemisphere can see it, if part of it is in front of an own face, and if it
-/// neither lies in the plane of all own faces nor continues them across a split vertex. `away` gets its normal, toward the side of the own faces, or the front of the
-/// face if they lie on both sides; faces in one plane count once.
+/// neither lies in the plane of all own faces nor continues them across a split vertex. Its normal is added to `away`,
+/// toward the side of the own faces, or toward its own front if they lie on both sides; faces in one plane count once.
 ///
 /// The surfel is covered if it lies inside a union of faces in the plane of all own faces that face against them.
 /// Exact duplicates of own faces count there only if `between_solids()`: the two sides of a leaf card do not cover

@@ -10,15 +10,14 @@
 
 namespace alcove {
 
-/// Whether a ray can hit the triangle: no corner is repeated or not finite.
+/// Whether a ray can hit the triangle: all corners are distinct and finite.
 bool can_be_hit(std::span<const Vec3> positions, const Triangle& triangle);
 
 /// The triangles (0, 1, 3) and (2, 3, 1); the second is degenerate if a triangle has no partner.
 using TrianglePair = std::array<std::uint32_t, 4>;
 
-/// Every triangle once, paired with an edge neighbour if one comes shortly before it in the list. Skips triangles
-/// that no ray can hit. Corner indices must be in range. Cost: about
-/// 30 ns per triangle.
+/// Every triangle once, paired with an edge neighbour if one comes shortly before it in the list. Skips triangles that
+/// no ray can hit. Corner indices must be in range. Cost: about 30 ns per triangle.
 std::vector<TrianglePair> pair_triangles(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 }

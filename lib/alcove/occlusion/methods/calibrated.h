@@ -13,12 +13,12 @@ namespace alcove {
 ///
 ///     ao = clamp(1 + N(x, c) − N(0, c)),   N a RingNetwork, c the radius in voxels and whether the field is two-sided
 ///
-/// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. What
-/// they are, and the error on meshes it was not trained on, is in docs/calibrated.md. All x are independent of
-/// scale. As far as the bands of the field reach, they are 0 over a plane, so ao is 1 there. Probes do not resolve
-/// contacts: surfels that touch other faces get rays on the mesh, as in Exact, or in the field, as in Traced. Source:
-/// probes along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13, 38 or 63 map() calls per surfel,
-/// and 0.05, 0.1 or 0.2 µs.
+/// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. These
+/// meshes, and the error on meshes outside the training set, are in docs/calibrated.md. All x are independent of scale.
+/// As far as the bands of the field reach, they are 0 over a plane, so ao is 1 there. Probes do not resolve contacts:
+/// surfels that touch other faces get rays on the mesh, as in Exact, or in the field, as in Traced. Source: probes
+/// along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13, 38 or 63 map() calls per surfel, and
+/// 0.05, 0.1 or 0.2 µs.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
     int samples = 38;    ///< maximum number of probes, >= 13: there are networks for 13, 38 and 63
@@ -58,7 +58,7 @@ struct Calibrated {
   private:
     template <Field F>
     void trace_contacts(const F& field, const SurfelBatch& surfels, float* ao) const {
-        const float lift = mesh ? start_height(field, radius) : 0.0f; // of the batch; rays on the mesh start without it
+        const float lift = mesh ? start_height(field, radius) : 0.0f; // of the batch; undone for rays on the mesh
         SurfelBatch touching;
         std::array<std::uint8_t, SurfelBatch::capacity> owner;
         for (std::size_t i = 0; i < surfels.count; ++i)

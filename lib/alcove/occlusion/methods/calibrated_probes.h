@@ -83,8 +83,8 @@ struct KnownDistances {
     }
 };
 
-/// Computes the network inputs of a batch. For a probe at distance h, tilted by θ: x = cos θ − d/h, clamped to
-/// [−1, 1.5]. x is 0 over a plane within the bands, negative over convex surfaces, positive near an occluder; independent of
+/// Computes the network inputs of a batch. For a probe at distance h, tilted by θ: x = cos θ − d/h, clamped to [−1,
+/// 1.5]. x is 0 over a plane within the bands, negative over convex surfaces, positive near an occluder; independent of
 /// scale and radius. Cost: one map() call per probe and surfel.
 template <class Probes, Field F>
 void calibrated_inputs(const F& field, const SurfelBatch& surfels, float radius, CalibratedInputs<Probes>& inputs) {

@@ -20,7 +20,7 @@ namespace alcove {
 ///  4. Correct. ao = a + max(0, 1 − 2σ²/s²) (v − a), with a = m + r̄ and s² the weighted mean of (r_i − r̄)²: the
 ///     surfel's own rays take over where its neighbours disagree (James and Stein 1961).
 ///
-/// As rays grow, σ goes to 0 and the filter radius shrinks, so the result converges to Exact. Bent normals are
+/// With more rays, σ goes to 0 and the filter radius shrinks, so the result converges to Exact. Bent normals are
 /// filtered by their deviation from the normal, with a local regression on m (Cleveland 1979).
 ///
 /// Surfels with the same position and normal get the same values. Cost: 38 map() calls and `rays` rays per surfel,

@@ -107,8 +107,8 @@ struct Thickness {
     /// produces a false surface, at most 1.5 + 1.5/(1.5 + 2.5) voxels behind the sheet.
     static constexpr float behind_sheet = 1.9f;
 
-    /// Moves hits on the false surface of a far sheet on to the sheet: one voxel before such a hit the field still
-    /// gives the true distance.
+    /// Moves hits on the false surface of a far sheet forward to the sheet itself: one voxel before such a hit, the
+    /// field still gives the true distance.
     template <Field F>
     static void pass_negative_layer(const F& field, RayBatch& rays, float voxel) {
         ProbeBatch probes;

@@ -13,7 +13,7 @@ namespace alcove {
 
 /// Finds start heights for rays, see Surfel::origin(): where the field is at least `clearance`, but at most `highest`.
 /// A surfel is on the true surface, not on the interpolated surface of the grid, and at a sharp edge, moving along the
-/// normal gains little distance from the faces. A fixed height that is safe for all surfels (a voxel) would be the
+/// normal gains little distance from the faces. A fixed height that is safe for all surfels (a voxel) would cause the
 /// largest error of tracing through a grid; these heights cause a tenth of that error. Cost: 1 to 6 map() calls per
 /// surfel.
 template <Field F>
@@ -56,8 +56,8 @@ float longest_ray(const F& field, float radius) {
 ///
 /// V = 0 if the ray hits the surface within the radius, else 1. The bent normal is the normalised mean of the open
 /// directions, weighted by cos θ in both forms. Rays start where the distance is a tenth of a voxel, or the
-/// ray_offset() in analytic fields. Source: lecture notes (aolecture). Cost: 1 to 6, plus rays × 5–20, map() calls per
-/// surfel.
+/// ray_offset() in analytic fields. Source: lecture notes (aolecture). Cost: 1 to 6 map() calls per surfel, plus 5–20
+/// per ray.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< per surfel, >= 1

@@ -12,10 +12,9 @@ namespace alcove {
 
 ///     ao = clamp(6/n Σ clamp(3 d(p + 0.01 n + 0.1 hash(i) ω_i))),   i = 0..n − 1, n = 32
 ///
-/// for a reference radius of 0.11; ω_i = (cos φ sin θ, sin φ sin θ, z), φ = 2π fract(i/1.618…), z = cos θ =
-/// 1 − (2 i + 1)/n, flipped to the normal's side. Every surfel uses the same directions, in world axes or, with
-/// `surfel_frame`, turned to its normal. 0.62–0.73 on an open plane. Source: sdfao2026. Cost: `samples` map() calls per
-/// surfel.
+/// for a reference radius of 0.11; ω_i = (cos φ sin θ, sin φ sin θ, z), φ = 2π fract(i/1.618…), z = cos θ = 1 − (2 i +
+/// 1)/n, flipped to the normal's side. Every surfel uses the same directions, in world axes or, with `surfel_frame`,
+/// turned to its normal. On an open plane, ao is 0.62–0.73. Source: sdfao2026. Cost: `samples` map() calls per surfel.
 struct Fibonacci {
     float radius = 0.1f;       ///< upper bound of the probe distances, > 0
     int samples = 32;          ///< n, >= 1

@@ -12,11 +12,11 @@ namespace alcove {
 
 ///     ao = clamp(1 − 1/n Σ (l_i − max(d(p + l_i ω_i), 0)) · falloff),   l_i = hash(i),   i = 0..n − 1, n = 32
 ///
-/// for a reference radius of 1; ω_i = normalize(n + (1 − 1/n) v_i), v_i = (cos s, sin s, t)/√(1 + t²) flipped to
-/// the normal's side, s = 2π hash(l_i + 1), t = 2 hash(l_i + 2) − 1. With fewer samples the directions bend more
-/// toward the normal. The directions are the same for every surfel, in world axes or around its normal. 0.90–0.95
-/// on an open plane. Source: hemisphericalao, after Evans (2006), Quilez (2008) and Hart (1996). Cost: `samples`
-/// map() calls per surfel.
+/// for a reference radius of 1; ω_i = normalize(n + (1 − 1/n) v_i), v_i = (cos s, sin s, t)/√(1 + t²) flipped to the
+/// normal's side, s = 2π hash(l_i + 1), t = 2 hash(l_i + 2) − 1. With fewer samples the directions bend more toward the
+/// normal. The directions are the same for every surfel, in world axes or around its normal. On an open plane, ao is
+/// 0.90–0.95. Source: hemisphericalao, after Evans (2006), Quilez (2008) and Hart (1996). Cost: `samples` map() calls
+/// per surfel.
 struct Hemisphere {
     float radius = 0.1f;       ///< upper bound of the probe distances, > 0
     int samples = 32;          ///< n, >= 1; 16 are usable
