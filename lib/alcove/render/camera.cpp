@@ -109,7 +109,7 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
 
     const Vec3d up = glm::normalize(options.up);
     const Vec3d toward_eye = three_quarter_view(up);
-    // Placed at the origin for its axes only, because a distant target would lose precision.
+    // This camera is at the origin and only gives the axes, because a distant target would lose precision.
     const Camera orientation(toward_eye, Vec3d(0.0), up, options.fov, size);
     const double half_width = std::tan(0.5 * options.fov * std::numbers::pi / 180.0);
     Visibility horizontal((1.0 - 2.0 * margin) * half_width);

@@ -29,7 +29,7 @@ std::vector<PixelRegion> regions(ImageSize size, int samples) {
     return all;
 }
 
-/// Repeats the value of each pixel of a region for each of its samples.
+/// Repeats the value of each pixel of a region, once for each of its samples.
 std::vector<float> spread(const std::vector<float>& pixels, int width, const PixelRegion& region, int samples) {
     std::vector<float> values;
     values.reserve(region.pixels() * static_cast<std::size_t>(samples));
@@ -61,7 +61,7 @@ class Resolver {
     }
 
   private:
-    /// Uses the colour of the mesh in the ways of the part.
+    /// Applies the colour of the mesh as the part specifies.
     static void apply(const Vec3& color, const Part& part, Place& place) {
         if (part.painted)
             place.painted = (color.x + color.y + color.z) / 3.0f;

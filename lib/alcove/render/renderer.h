@@ -162,7 +162,7 @@ struct Part {
     Material material{};
     bool colored = false;      ///< the colours of the mesh replace the colour of the material
     bool painted = false;      ///< the brightness of the colours of the mesh multiplies ao
-    bool on_triangles = false; ///< the triangles are the only surface: nothing where the field exceeds their outline
+    bool on_triangles = false; ///< the triangles are the only surface: none where the field extends beyond them
 };
 
 /// A plane, visible from its front only, that fades into the background.
@@ -192,7 +192,7 @@ struct Renderable {
 /// The material of an object, which must not be no_object.
 const Material& material_of(const Renderable& renderable, ObjectId object);
 
-/// Whether a material has a colour for convex edges.
+/// Whether any material has a colour for convex edges.
 bool has_edge_colors(const Renderable& renderable);
 
 /// The ground with that object number, or null if it is a part.

@@ -17,7 +17,7 @@
 namespace alcove {
 namespace {
 
-// Measured: per triangle that rays hit, with its corners, their normals and its share of the BVH.
+// Measured: bytes per triangle for rays, including its corners, their normals and its share of the BVH.
 constexpr double bytes_per_ray_triangle = 300.0;
 
 Box box_around(const std::vector<LoadedShape>& shapes) {
@@ -67,7 +67,7 @@ AnyField united(const std::vector<Part>& parts) {
     return UnionOf<AnyField>(std::move(fields));
 }
 
-/// The distance up to which the field must be correct. A soft shadow depends on distances below t/sharpness only.
+/// The distance up to which the field must be correct. A soft shadow depends only on distances below t/sharpness.
 float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity) {
     const bool shadow = need_shadow(passes, scene.light.casts_shadow);
     const SoftShadow& shape = scene.light.shadow;
@@ -75,7 +75,7 @@ float reach_of(const Scene& scene, PassSet passes, float radius, bool convexity)
     return std::max(occludes || convexity ? radius : 0.0f, shadow ? std::min(shape.end / shape.sharpness, 1.0f) : 0.0f);
 }
 
-/// Whether all that a ray can meet are triangles and grounds.
+/// Whether a ray can meet only triangles and grounds.
 bool all_have_triangles(const Scene& scene) {
     return std::all_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
         const auto* mesh = std::get_if<MeshShape>(&object.shape);
@@ -134,8 +134,7 @@ int guided_rays(Quality quality) {
     return quality == Quality::draft ? 1 : quality == Quality::good ? 4 : 16;
 }
 
-/// Default rays per sample of the other methods. With the samples of a pixel, a pixel gets as many rays as a vertex of
-/// a bake.
+/// Default rays per sample of the other methods. With four samples, a pixel gets as many rays as a vertex of a bake.
 constexpr int rays_per_sample = 16;
 
 /// The method of a scene. `make_triangles` is called with whether shapes that are not meshes need triangles as well.

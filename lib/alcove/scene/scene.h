@@ -1,4 +1,4 @@
-/// Scenes: as plain data (objects, light, camera, image size), as files, and built into what can be rendered.
+/// Scenes: as plain data (objects, light, camera, image size), as files, and built for rendering.
 #pragma once
 
 #include "alcove/bake/bake.h"
@@ -97,7 +97,7 @@ struct SceneLight {
 struct SceneOcclusion {
     /// Chooses a method and its rays where none is named: guided, or traced for shapes without a zero isosurface.
     std::optional<Quality> quality = Quality::good;
-    const Method* method = nullptr;             ///< null if none is named, or an image method
+    const Method* method = nullptr;             ///< null if no method is named, or an image method
     const ImageMethod* image_method = nullptr;  ///< set only if `method` is null
     Length radius{0.1, Length::Unit::diagonal}; ///< a percentage is of the box around all bounded objects
     std::vector<std::pair<std::string, double>> parameters{};
@@ -139,7 +139,7 @@ struct BuiltScene {
     Renderable renderable;
     std::vector<Vec3d> points; ///< surface points of the bounded objects, to aim a camera at; scene units
     float radius = 0.0f;       ///< radius of occlusion, unit space
-    MethodChoice occlusion{};  ///< no method if there is none, or an image method
+    MethodChoice occlusion{};  ///< without a method if none is named, or an image method
     double voxel = 0.0;        ///< largest of the objects' finest voxels, scene units; 0 without grids
     std::size_t levels = 0;    ///< largest number of levels of an object
     std::vector<std::string> warnings{};

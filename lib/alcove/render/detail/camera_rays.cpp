@@ -15,12 +15,12 @@ constexpr float nearness = 0.1f;
 /// Over-relaxation of the steps: a tenth faster on planes seen at a grazing angle, a twentieth slower elsewhere.
 constexpr float relaxation = 1.4f;
 
-/// A distance changes no faster than the position, up to interpolation. A steeper change is a jump, whose zero is not
-/// a surface.
+/// Apart from interpolation errors, a distance changes no faster than the position. A steeper change is a jump, whose
+/// zero is not a surface.
 constexpr float max_slope = 1.15f;
 
-/// If the slope is below min_slope, or if the cosine between the gradients at a hit and a little in front of it is below
-/// min_agreement, the hit is on a crease or inside a jump.
+/// If the slope is below min_slope, or if the cosine between the gradients at a hit and a little in front of it is
+/// below min_agreement, the hit is on a crease or inside a jump.
 constexpr float min_slope = 0.8f, min_agreement = 0.97f;
 
 /// Maximum distance in voxels between the zero inside a jump and the face in front of it.
@@ -159,7 +159,7 @@ void CameraRays::trace_tile(const PixelRegion& tile, const PixelRegion& region, 
                 if (start < furthest_ || !renderable_.grounds.empty()) {
                     const Vec3d ray = camera_.direction(x + double(place.x), y + double(place.y));
                     const GroundHit ground = meet_ground(ray);
-                    // Overwritten later by any hit in front of it.
+                    // Any hit in front of it overwrites this later.
                     if (ground.object != no_object)
                         set_ground(ray, ground, at, hits);
                     Span span(eye_, ray, low_, high_);
@@ -372,7 +372,7 @@ CameraRays::Values CameraRays::distances(const Places& places) const {
     return values;
 }
 
-/// Central differences of the field along the axes, over a distance of 2h; not divided by it.
+/// Central differences of the field along the axes, over a distance of 2h, by which they are not divided.
 CameraRays::Gradients CameraRays::differences(const AnyField& field, const Places& places, float h) {
     Gradients gradient;
     Values above, below;

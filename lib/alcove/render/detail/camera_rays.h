@@ -30,7 +30,7 @@ struct Hits {
     std::vector<float> depths;     ///< along the view axis, scene units
     std::vector<ObjectId> objects; ///< no_object if the ray missed
     std::vector<Vec3> colors;      ///< of the mesh, linear light; empty if no mesh has any
-    std::vector<Triangle> faces;   ///< of the mesh; empty without one, all corners 0 where snap() found none
+    std::vector<Triangle> faces;   ///< of the mesh; empty without a mesh, all corners 0 if snap() found no triangle
     std::vector<float> steps;      ///< map() calls along each ray; empty if not requested
 
     void resize(std::size_t samples, bool with_steps) {
@@ -55,9 +55,9 @@ struct RayPrecision {
 /// Rays from the eye through the same `samples` positions of every pixel, sphere-traced inside the box of the
 /// renderable.
 ///
-/// The surface is the zero crossing of the field, found to less than a voxel at edges and to a hundredth of a voxel
-/// away from edges and outlines. Normals are central differences of the part that is hit, mirrored toward the eye if
-/// they point away. In a two-sided field they are evaluated in front of the face, whichever side is seen, because
+/// The surface is the zero crossing of the field, located to within a voxel at edges, and to within a hundredth of a
+/// voxel away from edges and outlines. Normals are central differences of the part that is hit, mirrored toward the eye
+/// if they point away. In a two-sided field they are evaluated in front of the face, whichever side is seen, because
 /// distances jump behind it. Grounds are intersected exactly. Keeps references to both arguments. `const` use is
 /// thread-safe.
 class CameraRays {

@@ -25,7 +25,7 @@ constexpr float bend_reach = 1.5f, min_bend = 0.15f;
 constexpr float side_reach = 2.25f;
 
 /// Half width of the central differences, voxels; and the tolerance of the gradient length, which is 1 where all
-/// distances around are distances to one plane.
+/// distances nearby are distances to one plane.
 constexpr float difference = 0.25f, flatness = 0.002f;
 
 /// Largest cosine between the normals of two sides, and smallest cosine between the normals of one side; largest
@@ -42,7 +42,7 @@ struct Side {
     float distance(const Vec3& p) const { return glm::dot(normal, p) - offset; }
 };
 
-/// The field at a place, relative to the hit.
+/// The field at a point, given relative to the hit.
 struct Sample {
     Vec3 place, gradient;
     float distance;
@@ -134,7 +134,7 @@ std::array<Vec3, all_directions> around() {
 }
 
 std::vector<Sample> sample(const AnyField& field, const Vec3& hit, std::span<const Vec3> directions, float voxel) {
-    constexpr std::size_t probes = 7; // the place itself and two along each axis
+    constexpr std::size_t probes = 7; // the point itself and two along each axis
     const float h = difference * voxel;
     std::array<float, probes * all_directions> x, y, z, distance;
     std::vector<Sample> samples;
@@ -157,7 +157,7 @@ std::vector<Sample> sample(const AnyField& field, const Vec3& hit, std::span<con
     return samples;
 }
 
-/// Whether the ray passed a bend before the hit: whether the distance before the hit was not that to its plane.
+/// Whether the ray passed a bend before the hit: whether the field there differed from the distance to the hit's plane.
 bool passed_a_bend(const AnyField& field, const Vec3& hit, const Vec3& direction, float approach, float voxel) {
     const float reach = bend_reach * voxel;
     return std::fabs(field.map(hit - reach * direction) - reach * approach) > min_bend * voxel;

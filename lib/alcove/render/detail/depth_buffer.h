@@ -1,4 +1,4 @@
-/// Depth and normals of what a camera sees.
+/// Depth and normals of the surface that a camera sees.
 #pragma once
 
 #include "alcove/render/camera.h"

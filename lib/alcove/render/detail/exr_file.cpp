@@ -60,7 +60,7 @@ void write_exr_file(int width, int height, std::span<const ExrChannel> channels,
                     bool has_camera, const std::filesystem::path& file) {
     Imf::Header header(width, height, 1.0f, Imath::V2f(0.0f), static_cast<float>(description.screen_window_width),
                        Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
-    // A third of the time of the default level, for files a twentieth larger.
+    // Takes a third of the time of the default level, for files that are a twentieth larger.
     header.zipCompressionLevel() = 2;
     if (has_camera) {
         Imf::addWorldToCamera(header, row_vectors(description.world_to_camera));

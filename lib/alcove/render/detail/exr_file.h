@@ -17,7 +17,8 @@ struct ExrChannel {
     Precision precision = Precision::half; ///< values beyond the range of half are clamped
 };
 
-/// Writes the file with ZIP compression, completely or not at all. `has_camera`: with the matrices of the header.
+/// Writes the file with ZIP compression, completely or not at all. `has_camera`: whether to store the matrices of the
+/// header.
 /// \throw IoError if it cannot be written.
 void write_exr_file(int width, int height, std::span<const ExrChannel> channels, const ImageHeader& header,
                     bool has_camera, const std::filesystem::path& file);

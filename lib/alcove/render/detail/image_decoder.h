@@ -1,4 +1,4 @@
-/// What the decoders of the image formats share.
+/// Code that the decoders of the image formats share.
 #pragma once
 
 #include "alcove/render/detail/decoded_image.h"

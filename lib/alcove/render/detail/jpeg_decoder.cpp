@@ -30,7 +30,7 @@ struct Decoder {
     std::longjmp(decoder.failed, 1);
 }
 
-/// An image that ends too early would be grey from there.
+/// An image that ends too early would be grey from there on.
 void take_warning(j_common_ptr jpeg, int level) {
     const int code = jpeg->err->msg_code;
     if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER))
@@ -47,7 +47,8 @@ void limit_scans(j_common_ptr jpeg) {
     }
 }
 
-// These hold no objects whose destructors a jump out of libjpeg would skip. They return false if libjpeg fails.
+// These functions hold no objects whose destructors a jump out of libjpeg would skip. They return false if libjpeg
+// fails.
 
 bool read_header(Decoder& decoder, std::string_view bytes, DecodedImage& image) {
     jpeg_decompress_struct& jpeg = decoder.jpeg;

@@ -33,7 +33,7 @@ void take_failure(png_structp png, png_const_charp message) {
 
 void ignore(png_structp, png_const_charp) {}
 
-// These hold no objects whose destructors a jump out of libpng would skip. They return false if libpng fails.
+// These functions hold no objects whose destructors a jump out of libpng would skip. They return false if libpng fails.
 
 bool read_header(Decoder& decoder, png_structp png, png_infop info) {
     if (setjmp(png_jmpbuf(png)))

@@ -74,7 +74,7 @@ class Snapper {
     }
 
   private:
-    /// Adds the ray of a sample, from in front of its hit on.
+    /// Adds the ray of a sample, starting in front of its hit.
     void start(std::size_t sample) {
         const Vec3 direction(glm::normalize(Vec3d(hits_.surfels[sample].position) - eye_));
         owner_[rays_.count] = sample;
@@ -124,7 +124,7 @@ class Snapper {
         const Vec3 normal = interpolated(renderable_.mesh->normals, places_[i]);
         if (const float length = glm::length(normal); length > 1e-6f) {
             const float away = glm::dot(normal, direction);
-            // Mirrored if it tilts away at a silhouette, negated if the back is seen.
+            // The normal is mirrored if it tilts away at a silhouette, and negated if the back is seen.
             const bool back = glm::dot(places_[i].normal, normal) * glm::dot(places_[i].normal, direction) > 0.0f;
             const Vec3 toward = back ? -normal : away > 0.0f ? normal - 2.0f * away * direction : normal;
             surfel.normal = toward / length;

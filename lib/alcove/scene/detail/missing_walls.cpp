@@ -44,7 +44,7 @@ std::vector<Surfel> points_on_faces(const LoadedShape& loaded, const Frame& own)
 /// The share of the surfels with no inside on either side. Checks both, because normals may be flipped.
 double share_without_inside(const std::vector<Surfel>& surfels, const LoadedShape& loaded, const Frame& own,
                             const AnyField& field, const Frame& frame) {
-    // Less than most edges are rounded by; walls of two voxels are intact at this depth.
+    // Most edges are rounded by more than this depth, but walls of two voxels are intact there.
     const float depth = 0.25f * static_cast<float>(loaded.stack.levels.front().voxel);
     const auto value = [&](const Surfel& surfel, float height) {
         return field.map(frame.to_unit(loaded.pose(own.to_scene(surfel.position + height * surfel.normal))));

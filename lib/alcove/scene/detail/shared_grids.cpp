@@ -14,7 +14,7 @@ namespace {
 constexpr double kept = 0.4;
 // Measured: the field of a level set takes 1.5 times the memory of its OpenVDB grid, so 2.5 times with the grid.
 constexpr double bytes_over_grid = 2.5;
-// Measured: what a level takes, however small it is.
+// Measured: the memory of a level, however small it is.
 constexpr double bytes_per_level = 2e5;
 
 const MeshShape* mesh_of(const LoadedShape& loaded) {
@@ -25,7 +25,7 @@ const GridShape* grid_of(const LoadedShape& loaded) {
     return std::get_if<GridShape>(&loaded.object->shape);
 }
 
-/// Returns the result of `work`. Its messages get the name of the file.
+/// Returns the result of `work`. Adds the name of the file to its messages.
 template <class Work>
 decltype(auto) naming(const std::filesystem::path& file, const Work& work) {
     try {
@@ -66,7 +66,7 @@ SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridConte
         share_what_is_left(automatic, planned, memory);
 }
 
-/// Gives each grid with an automatic voxel an equal part of what the rest of the scene leaves.
+/// Gives each grid with an automatic voxel an equal part of the memory that the rest of the scene leaves.
 void SharedGrids::share_what_is_left(const std::vector<const LoadedShape*>& automatic, double planned,
                                      const MemoryEstimate& memory) {
     limit_of_automatic_ = (memory.left() + planned) / (kept * static_cast<double>(automatic.size()));

@@ -12,7 +12,7 @@
 
 namespace alcove {
 
-/// What the grids of a scene have in common.
+/// Settings that the grids of a scene have in common.
 struct GridContext {
     Frame frame;         ///< maps unit space to scene space
     float radius;        ///< radius of occlusion, which determines voxels; unit space
