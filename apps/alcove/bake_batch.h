@@ -1,4 +1,4 @@
-/// Several inputs of one run: where their outputs go, and what happens if some fail.
+/// Several inputs of one run: their outputs, and the handling of failures.
 #pragma once
 
 #include "options.h"

@@ -114,7 +114,7 @@ class BakeJob {
                 check_has_faces(mesh_, file_.input, "--weld");
             if (!verb_.tessellate.empty())
                 check_has_faces(mesh_, file_.input, "--tessellate");
-            if (options.weld && mesh_.format == "STL") // its vertices come from joining anyway
+            if (options.weld && mesh_.format == "STL") // reading an STL joins its vertices anyway
                 mesh_ = join_vertices(mesh_, *std::exchange(options.weld, std::nullopt)).mesh;
             if (!verb_.grid.empty())
                 grid_ = read_grids(verb_.grid, {verb_.grid_names});

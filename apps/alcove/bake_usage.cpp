@@ -11,7 +11,7 @@
 namespace alcove::cli {
 namespace {
 
-/// Refuses options for values at vertices.
+/// Refuses options that apply only to values at vertices.
 void check_at_vertices(const BakeVerb& verb, const std::string& output, std::string_view instead) {
     const auto refuse = [&](bool given, std::string_view option) {
         if (given)
@@ -40,7 +40,7 @@ void check_map_usage(const BakeVerb& verb, const std::string& output) {
         if (!verb.map.miss_mask.empty())
             check_miss_mask(verb.map, output);
     });
-    const AtomicFile probe(output); // to find out early
+    const AtomicFile probe(output); // fails early
 }
 
 /// Checks the options of occlusion textures.
@@ -52,7 +52,7 @@ void check_texture_usage(const BakeVerb& verb, const std::string& output) {
                          "options for maps and no other --attributes");
     check_at_vertices(verb, output, "an occlusion texture is written");
     as_usage([&] { check(verb.map.map); });
-    can_write_mesh(output); // to find out early
+    can_write_mesh(output); // fails early
 }
 
 }

@@ -8,12 +8,12 @@ namespace alcove::cli {
 inline constexpr const char* out_of_memory = "out of memory: use a coarser --voxel";
 
 /// Installs handlers: a signal that ends the program, such as SIGINT, first removes unfinished files. So does an
-/// exception that nothing can catch, usually std::bad_alloc in a library, which ends with one line and exit code 1.
-/// A file that exceeds the size limit is an error like a full disk.
+/// exception that nothing can catch, usually std::bad_alloc in a library; the program then ends with one line and exit
+/// code 1. A file that exceeds the size limit is an error, as a full disk is.
 void end_cleanly();
 
-/// Call before the program prints its last line, an error or a result: no time limit or failure adds a line after it.
-/// Waits for ever if another thread is already ending the program.
+/// Call before the program prints its last line, an error or a result: afterwards, neither the time limit nor a failure
+/// adds a line. Waits for ever if another thread is already ending the program.
 void begin_to_end();
 
 /// Ends the program after this many seconds, > 0, with one line and exit code 1, and removes unfinished files. The

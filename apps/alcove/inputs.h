@@ -1,4 +1,4 @@
-/// Level sets as input of verbs that work on meshes.
+/// Level sets as input for verbs that work on meshes.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"

@@ -68,7 +68,7 @@ EnumSet<MapAttribute> parse_attributes(const std::string& text) {
     for (std::string name; std::getline(names, name, ',');)
         attributes = attributes | map_attribute(name);
     if (attributes.empty())
-        map_attribute(text); // refuses it
+        map_attribute(text); // throws, listing the attributes
     return attributes;
 }
 

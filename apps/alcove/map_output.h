@@ -1,4 +1,4 @@
-/// Texture maps as output of `bake`: the options, and what is printed about them.
+/// Texture maps as output of `bake`: the options, and the printed summary.
 #pragma once
 
 #include "options.h"
@@ -18,7 +18,7 @@ struct MapRequest {
     bool sized = false;        ///< whether --size, --subsamples or --margin was used
 
     bool given() const;             ///< whether any option for maps was used
-    bool given_beyond_size() const; ///< besides --size, --subsamples and --margin
+    bool given_beyond_size() const; ///< other than --size, --subsamples and --margin
     TexturePacking packing() const;
 };
 

@@ -179,7 +179,7 @@ class RenderJob {
                "aim at a part with --eye and --look-at";
     }
 
-    /// What else helps if the camera is inside a room.
+    /// Another fix, for a camera inside a room.
     std::string room_fix() const {
         const std::string kind = extension(options_.scene.input);
         return kind == ".vdb"    ? ""

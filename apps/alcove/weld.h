@@ -1,4 +1,4 @@
-/// The option --weld, and which inputs options like it are for.
+/// The option --weld, and a check of the inputs that such options accept.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
