@@ -5,8 +5,9 @@
         build/alcove_blender.zip build/alcove [--module build/python] [--quality good] | grep "RMSE 0"
 
 Both bake the same scenes with the same radius. Errors are RMSE against exact rays of the program, 4,096 per vertex.
-Cycles gets more samples, in steps of a quarter, until its error is that of the add-on. Times are wall-clock seconds of
-the whole operators, of the add-on the shortest of three, and CPU seconds with those of the program.
+The samples of Cycles are increased in steps of a quarter until its error equals that of the add-on. Times are
+wall-clock seconds of the whole operators (for the add-on, the shortest of three runs), and CPU seconds including those
+of the program.
 """
 import argparse
 import os

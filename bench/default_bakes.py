@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Measures what a bake without options gives: its true error, and its cost beside that of other plans.
+"""Measures bakes without options: their true error, and their cost compared with that of other plans.
 
     bench/default_bakes.py [--alcove PROGRAM] [--out FILE.json] [--jobs N] [--repeat N] MESH...
 
-Bakes each mesh in turns with the default, with --via auto and with --via mesh (exact rays), at a radius of 10 % and in
+Bakes each mesh in turn with the default, with --via auto and with --via mesh (exact rays), at a radius of 10 % and in
 one thread, and compares ao with that of many exact rays. The costs are the CPU seconds of the whole program. Results
-are written to FILE.json as they come; those that are there, of the same build and mesh, are not measured again. The
+are written to FILE.json as they arrive; those already there for the same build and mesh are not measured again. The
 truths are kept beside FILE.json, in FILE.truths, for all builds: remove them if exact rays themselves change.
 """
 
@@ -37,7 +37,7 @@ PLY_TYPES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h",
 
 
 class Failure(Exception):
-    """A run of alcove that did not end well."""
+    """A run of alcove that failed."""
 
 
 def run(command):
@@ -59,14 +59,14 @@ def run(command):
 
 
 def bake(alcove, mesh, output, options, threads=1):
-    """The result of a bake as alcove tells it, and its CPU seconds."""
+    """The result of a bake as alcove reports it, and its CPU seconds."""
     text, cpu = run([alcove, "bake", mesh, "-o", output, "--radius", "10%", "--threads", str(threads), "--json",
                      "--quiet", *options])
     return json.loads(text), cpu
 
 
 def read_ao(file):
-    """The ao of the vertices of a binary little-endian .ply whose first element they are."""
+    """The ao of the vertices of a binary little-endian .ply, in which the vertices are the first element."""
     with open(file, "rb") as data:
         count, layout, ao = 0, "<", None
         element = None
@@ -107,7 +107,7 @@ def hash_of(*files):
 
 
 def build_of(alcove):
-    """Identifies the program with those of its libraries that lie beside it."""
+    """Identifies the program and those of its libraries that are in its folder."""
     folder = pathlib.Path(alcove).resolve().parent
     lines = subprocess.run(["ldd", alcove], capture_output=True, text=True, check=True).stdout.splitlines()
     libraries = [pathlib.Path(line.split()[2]) for line in lines if "=> /" in line]
@@ -156,7 +156,7 @@ class Measurement:
             return record
 
     def bakes(self, mesh, folder):
-        """All plans, in turns: each round begins with another one."""
+        """All plans, in turn; each round begins with a different one."""
         plans, cpu = {}, collections.defaultdict(list)
         names = list(PLANS)
         for turn in range(self.repeat):
@@ -232,7 +232,7 @@ def share(count, total):
 
 
 def is_mismatch(plan):
-    """Whether the estimate is off by more than 30 % of the truth, and either is worth the name of an error."""
+    """Whether the estimate is off by more than 30 % of the truth, and either is large enough to matter."""
     true, estimated = plan["true_rmse"], plan["estimated_rmse"]
     if estimated is None:
         return False
@@ -240,7 +240,7 @@ def is_mismatch(plan):
 
 
 def off_by(plan):
-    """How many times the larger of the estimate and the truth is the smaller."""
+    """The ratio of the larger of the estimate and the truth to the smaller."""
     low, high = sorted((plan["true_rmse"], plan["estimated_rmse"]))
     return high / max(low, 1e-4)
 

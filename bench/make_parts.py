@@ -5,7 +5,7 @@
 
 The parts are typical of CAD exports and game assets, and are written as .stl, .obj and .off in turn. The scans are
 those of the archive, subdivided and roughened, as .ply. Everything is made from fixed seeds. --check reads the files
-back and says what is wrong with them.
+back and reports what is wrong with them.
 """
 
 import argparse
@@ -139,7 +139,7 @@ def pipe_elbow():
 
 @part(closed=True)
 def tubes():
-    """A bundle of tubes with walls of half a millimetre to three."""
+    """A bundle of tubes with walls of half a millimetre to three millimetres."""
     result = Mesh()
     for i in range(7):
         x, y = polar(22 if i else 0, TAU * i / 6)
@@ -403,7 +403,7 @@ def furnished_room():
 
 @part(closed=True)
 def needle_cylinders():
-    """Cylinders of 400 sides with fans for caps, one in another."""
+    """Cylinders of 400 sides with fans for caps, one inside another."""
     return joined(cylinder(30, 0, 6, 400), cylinder(22, 5, 90, 360), cylinder(27, 60, 63, 300),
                   lathe([(14, 85), (3, 140)], 380), tube(29.9, 28, 5, 25, 320)).moved(4e4, -2e4, 1e4)
 
@@ -436,7 +436,7 @@ def brick_wall():
 
 @part(closed=True)
 def gearbox_housing():
-    """Walls, floor, flange and bearing seats, in micrometres and far away."""
+    """Walls, floor, flange and bearing seats, in micrometres and far from the origin."""
     walls = prism([rounded_rectangle(0, 0, 120, 80, 12, 10), rounded_rectangle(5, 5, 115, 75, 8, 10)], 0, 60)
     floor = prism([rounded_rectangle(1, 1, 119, 79, 11, 10), circle(30, 40, 9, 40), circle(80, 40, 14, 48)], 1, 6)
     bolts = [circle(x, y, 2.6, 18) for x in (-5, 30, 60, 90, 125) for y in (-5, 85)]
@@ -449,7 +449,7 @@ def gearbox_housing():
 
 @part(closed=True)
 def bookshelf():
-    """Boards that overlap, and books of which some lean."""
+    """Overlapping boards, and books, some of which lean."""
     chance = random.Random(32)
     result = joined(box(-2, 0, 0, 0, 30, 180), box(100, 0, 0, 102, 30, 180), box(-1, 29, 1, 101, 30.5, 179))
     for z in steps(3, 175, 5):
@@ -528,7 +528,7 @@ def perforated_sheet():
 
 @part(closed=False)
 def cracked_patches():
-    """A turned body in patches, each with its own sampling, so that their seams gape."""
+    """A turned body in patches, each with its own sampling, so that there are gaps at the seams."""
     def radius(z):
         return 20 + 6 * math.sin(z / 9) + 2 * math.cos(z / 4)
 
@@ -666,9 +666,9 @@ def refined(mesh, rounds):
 def roughened(mesh, seed, octaves=6, wavelength=0.06, amplitude=0.006, gain=0.5):
     """Displaces points along their normals by octaves of value noise.
 
-    The first has this wavelength and amplitude, as shares of the diagonal; each next one has half the wavelength and
-    `gain` times the amplitude. A gain of 0.5 gives slopes as steep at each scale, and a power spectral density that
-    falls with the third power of the frequency.
+    The first octave has the given wavelength and amplitude, as shares of the diagonal; each further one has half the
+    wavelength and `gain` times the amplitude. A gain of 0.5 gives slopes as steep at each scale, and a power spectral
+    density that falls with the third power of the frequency.
     """
     size = diagonal_of(mesh.points)
     layers = [(Noise(seed + i), 2**i / (wavelength * size), amplitude * size * gain**i) for i in range(octaves)]
@@ -685,7 +685,7 @@ def rough_armadillo(scans):
 
 
 def uneven_bunny(scans):
-    """Triangles subdivided only where noise says so, once to four times."""
+    """Triangles subdivided only where noise is strong, once to four times."""
     mesh = read_off(scans / "bunny00.off")
     noise, frequency = Noise(201), 7 / diagonal_of(mesh.points)
     for threshold in (0.1, 0.4, 0.6, 0.75):
@@ -756,7 +756,7 @@ def write_ply(mesh, file):
 
 
 def read(file):
-    """A mesh that write() has written. Corners of an .stl at the same place are one point."""
+    """A mesh that write() has written. Corners of an .stl at the same position are one point."""
     if file.suffix == ".off":
         return read_off(file)
     if file.suffix == ".obj":
@@ -784,7 +784,7 @@ def read_off(file):
 
 
 def faults(mesh, sizes, closed):
-    """What is wrong with a mesh, as texts."""
+    """The defects of a mesh, as texts."""
     found = []
     if len(mesh.points) not in sizes:
         found.append(f"{len(mesh.points)} vertices, not {sizes[0]} to {sizes[-1]}")
@@ -804,7 +804,7 @@ def faults(mesh, sizes, closed):
 
 
 def check(file, sizes, closed):
-    """Prints a line about a file, and says whether it is as it should be."""
+    """Prints a line about a file, and returns whether it is as it should be."""
     mesh = read(file)
     found = faults(mesh, sizes, closed)
     size = diagonal_of(mesh.points)

@@ -4,8 +4,8 @@
     bench/map_speed.py [--sizes 2048,4096] [--repeat 5] [--alcove PROGRAM] MESH.obj...
 
 The rays are those of --method exact --no-pilot: Embree alone, in streams, without a grid. Their count is the smallest
-whose map of 512 x 512 is within the error of the quality of 1,024 rays. Runs whole programs on one thread, in turns, and
-prints medians of the CPU seconds. Meshes need UVs, such as those that bench/unwrap.py writes.
+for which a map of 512 x 512 differs from that of 1,024 rays by at most the error of the quality. Runs whole programs on
+one thread, in turn, and prints medians of the CPU seconds. Meshes need UVs, such as those that bench/unwrap.py writes.
 """
 import argparse
 import math

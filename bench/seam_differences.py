@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How much a texture map differs on the two sides of its UV seams, against a map of exact rays.
+"""How much a texture map differs between the two sides of its UV seams, compared with a map of exact rays.
 
     bench/seam_differences.py [--size 1024] MESH.obj...
 
-Samples both maps bilinearly at points along each seam, on both sides, and prints the 95th percentile of the differences in
-units of 1/255. Meshes need UVs, such as those that bench/unwrap.py writes. Uses build/alcove.
+Samples both maps bilinearly at points along each seam, on both sides, and prints the 95th percentile of the
+differences in units of 1/255. Meshes need UVs, such as those that bench/unwrap.py writes. Uses build/alcove.
 """
 import argparse
 import importlib.util

@@ -31,7 +31,7 @@ def unit(a):
 
 
 class Mesh:
-    """Points and polygons, with normals per point where the file is to hold some."""
+    """Points and polygons, with a normal per point if the file is to contain normals."""
 
     def __init__(self, points=(), faces=(), normals=()):
         self.points, self.faces, self.normals = list(points), list(faces), list(normals)
@@ -46,7 +46,7 @@ class Mesh:
         return self
 
     def mapped(self, function):
-        """A mesh of other points, without normals."""
+        """The mesh with other points, without normals."""
         return Mesh([function(p) for p in self.points], self.faces)
 
     def moved(self, x, y, z):
@@ -231,7 +231,7 @@ def prism(loops, z0, z1):
 
 
 def loft(rings, wraps=False, ends=("polygon", "polygon")):
-    """Joins closed rings of equally many points. An end is a polygon, a fan to a point, or open: None."""
+    """Joins closed rings of equally many points. Each end is a polygon, a fan to a point, or None: open."""
     n = len(rings[0])
     mesh = Mesh(itertools.chain(*rings))
     for i in range(len(rings) if wraps else len(rings) - 1):
@@ -250,7 +250,7 @@ def loft(rings, wraps=False, ends=("polygon", "polygon")):
 
 
 def lathe(profile, count, wraps=False, ends=("polygon", "polygon")):
-    """Turns a profile of (radius, height) about z. A radius of 0 at either end is a point."""
+    """Turns a profile of (radius, height) about z. A radius of 0 at either end becomes a point."""
     ends = list(ends)
     profile = list(profile)
     for end in (0, -1):
@@ -393,7 +393,7 @@ def subdivided(mesh, is_wanted, normals=None):
     faces = []
     for a, b, c in mesh.faces:
         ab, bc, ca = (middles.get((u, v) if u < v else (v, u)) for u, v in ((a, b), (b, c), (c, a)))
-        for _ in range(3):  # turn the triangle so that its edges that are split come first
+        for _ in range(3):  # turn the triangle so that its split edges come first
             if (ab is None) or (ca is not None and bc is None):
                 a, b, c, ab, bc, ca = b, c, a, bc, ca, ab
         if ca is not None:

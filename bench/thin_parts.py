@@ -32,7 +32,7 @@ def lines(*pieces):
 
 
 def solid(xs, ys, zs, is_filled):
-    """Of the cells whose middle is filled."""
+    """The surface of the cells whose middle is filled."""
     middle = [[(a + b) / 2 for a, b in zip(planes, planes[1:])] for planes in (xs, ys, zs)]
     return blocks(xs, ys, zs, lambda i, j, k: is_filled(middle[0][i], middle[1][j], middle[2][k]))
 
@@ -82,7 +82,7 @@ def diagonal(mesh):
 
 
 def make(function, thickness, seed, file):
-    """The voxel is a share of the diagonal of the turned part, so its thickness is found in two passes."""
+    """The voxel is a share of the diagonal of the turned part, so the thickness is found in two passes."""
     t = thickness * VOXEL
     for _ in range(2):
         mesh = turned(function(t), seed)
