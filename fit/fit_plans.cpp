@@ -45,8 +45,8 @@ constexpr std::array<std::pair<std::string_view, int>, 15> methods{{{"guided", 1
                                                                     {"calibrated", 38},
                                                                     {"calibrated", 63}}};
 constexpr TruthOptions truth_options{.rays = 512, .most = 4000, .labels = labels_of_pilot};
-constexpr double min_deviation = 0.01;     // of the truth, for errors to count
-constexpr std::size_t min_vertices = 2000; // of a mesh, for seconds per vertex to count
+constexpr double min_deviation = 0.01;     // smallest deviation of a truth for which errors count
+constexpr std::size_t min_vertices = 2000; // smallest mesh for which seconds per vertex count
 constexpr int rays_timed = 64;
 constexpr double reference_doublings = 17.0; // log2 of the triangles that reference ray costs are given for
 

@@ -1,4 +1,4 @@
-/// Makes the examples that the networks of `calibrated` are trained on, and those they are measured with.
+/// Makes the examples that the networks of `calibrated` are trained on, and those that they are evaluated on.
 ///
 ///     alcove_fit_examples FOLDER [SCENES]
 ///
@@ -156,7 +156,8 @@ std::vector<Surfel> random_surfels(const Mesh& mesh, std::size_t count, double o
     return surfels;
 }
 
-/// Adds `draws` examples per surfel, at random radii of `least` to the diagonal, or infinite.
+/// Adds `draws` examples per surfel, at random radii from `least` to `most`, and infinite ones if `most` is the
+/// diagonal.
 void add_random(ExampleFile& file, const LabelledMesh& labelled, const GridOptions& grid, SignChoice sign, float least,
                 float most, int draws, int scene, std::mt19937& random) {
     const LevelStack field(voxelize(labelled.mesh, labelled.triangles, {.grid = grid, .sign = sign}));

@@ -166,7 +166,7 @@ Mesh unit_cube() {
     return blocks({{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}}, [](const auto&) { return true; });
 }
 
-/// Planes at random distances: some as thin as a wall.
+/// Planes at random distances: some as close as the two sides of a wall.
 std::vector<double> random_cuts(Chance& chance, int cells) {
     std::vector<double> cuts{0.0};
     for (int i = 0; i < cells; ++i)
@@ -273,7 +273,7 @@ Mesh primitive(Chance& chance) {
     return lathe(ring, around, 0.0, 0.0, noise);
 }
 
-/// A plate that others stand on or sink into.
+/// A plate that other shapes stand on or sink into.
 void add_plate(Mesh& mesh, Chance& chance, double top, double thickness) {
     Matrix size(1.0);
     size[0][0] = chance.between(0.8, 3.0);
@@ -327,7 +327,7 @@ TrainingScene random_scene(std::span<const Mesh> meshes, std::mt19937& random) {
         if (chance.happens(0.6))
             scene.sign = SignChoice::solid;
     } else if (which < 0.73) {
-        // Two or three walls with a few things between them.
+        // Two or three walls with a few objects between them.
         scene.kind = "rooms";
         const int walls = chance.whole(2, 3);
         for (int axis = 0; axis < walls; ++axis) {

@@ -12,7 +12,7 @@ using namespace alcove;
 
 namespace {
 
-/// Takes values from the front of the bytes; zeros after the last byte.
+/// Takes values from the front of the bytes, and zeros after the last byte.
 class Source {
   public:
     explicit Source(fuzz::Bytes bytes) : left_(bytes) {}
