@@ -21,7 +21,7 @@ py::array_t<T, py::array::c_style> rows(const py::object& array, py::ssize_t col
 /// Whole numbers of one dimension, or of rows of `columns`, in [0, limit). \throw as rows()
 std::vector<std::uint32_t> indices(const py::object& array, std::size_t limit, const std::string& argument);
 
-/// An array that owns the vector; without a copy. `columns` 1: one dimension.
+/// An array that owns the vector, without a copy. With one column, it has one dimension.
 py::array_t<float> to_array(std::vector<float> values, std::size_t columns = 1);
 
 /// A read-only view of memory that `owner` keeps alive.

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t grain = 4096;
 
-/// Runs work on points; on few of them, without the cost of another thread.
+/// Runs work on points; for few points, avoids the cost of another thread.
 void run_on(std::size_t points, const std::function<void()>& work) {
     constexpr std::size_t few = 256;
     if (points > few)

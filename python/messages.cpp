@@ -13,12 +13,12 @@
 namespace alcove::python {
 namespace {
 
-/// Arguments of bake(), bake_maps() and add() with the names of the options.
+/// Arguments of bake(), bake_maps() and add() that have the names of options.
 constexpr std::array<std::string_view, 24> arguments{
     "attributes", "color",   "error",      "ground", "high",   "margin", "method", "normals",
     "point_size", "quality", "radius",     "reach",  "seed",   "sign",   "size",   "space",
     "subsamples", "threads", "time_limit", "up",     "uv_set", "via",    "voxel",  "weld"};
-/// Options with other names here.
+/// Options that have other names in the module.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> others{{{"max_memory", "limit_memory()"},
                                                                                {"max_read", "limit_reading()"},
                                                                                {"occluder", "occluders"},

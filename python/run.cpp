@@ -53,8 +53,8 @@ class Worker {
     std::packaged_task<void()> task_;
 };
 
-/// A worker of its own for each call. Workers are used again, because Embree keeps memory for every thread that ever
-/// used it. The GIL guards them.
+/// A worker of its own for each call. Workers are reused, because Embree keeps memory for every thread that ever used
+/// it. The GIL guards them.
 class Lease {
   public:
     Lease() {

@@ -7,7 +7,7 @@ namespace alcove::python {
 
 enum class Gil {
     released,
-    kept, ///< so that no other thread of Python changes what the work reads
+    kept, ///< so that no other thread of Python changes the data that the work reads
 };
 
 /// Calls `work` on another thread and waits for it, while this thread handles signals. If a handler raises, as that of

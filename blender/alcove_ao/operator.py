@@ -53,7 +53,7 @@ def surface_of(thing, depsgraph, needs_uvs=False):
 
 
 def nearest_vertices(thing, depsgraph):
-    """For each vertex of the object's own mesh, the nearest one of the mesh with modifiers; None if these are the same."""
+    """For each vertex of the object's own mesh, the nearest one of the mesh with modifiers; None if these match."""
     from mathutils.kdtree import KDTree
 
     evaluated = thing.evaluated_get(depsgraph)
@@ -152,7 +152,7 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
         if self.target == "IMAGE":
             return self.bake.image(self.surfaces[0], self.others, *self.size)
         joined = backend.Surface.joined(self.surfaces)
-        # Values at corners of the evaluated mesh do not fit another one.
+        # Values at corners of the evaluated mesh fit no other mesh.
         if self.target == "CORNER" and all(nearest is None for nearest in self.nearest):
             return self.bake.corners(joined)
         return self.bake.vertices(joined)
