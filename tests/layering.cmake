@@ -188,7 +188,7 @@ foreach(header IN LISTS headers)
     endif()
 endforeach()
 
-# The public face stays small.
+# The public interface stays small.
 set(max_public_headers 25)
 file(GLOB headers RELATIVE ${TREE}/lib ${TREE}/lib/alcove/alcove.h ${TREE}/lib/alcove/*/*.h)
 list(FILTER headers EXCLUDE REGEX "^alcove/(nearest|measure)/")

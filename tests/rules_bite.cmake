@@ -1,5 +1,5 @@
 # Tests that layering.cmake and sizes.cmake detect violations. Each case breaks one rule in a small generated tree; the
-# script must fail and name the place. The unbroken tree must pass.
+# script must fail and name the file. The unbroken tree must pass.
 #
 #     cmake -D SCRATCH=<directory> -P rules_bite.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -105,7 +105,7 @@ TEST(Bake, AoDoesNotDependOnTheOtherAttributes) {
 }
 
 TEST(Bake, PointsAtTheVerticesHaveTheirValues) {
-    // Smooth, so that the faces of a vertex are within 60° of its normal and count as the own faces of the point.
+    // Smooth, so that the faces of a vertex are within 60° of its normal and count as the point's own faces.
     Mesh mesh = sphere_mesh(4);
     add_part(mesh, sphere_mesh(4), 0.7, {1.9, 0.3, 0.2});
     const std::vector<Vec3> normals = angle_weighted_normals(mesh, triangulate(mesh).triangles);
@@ -337,8 +337,8 @@ TEST(Bake, AddsWhatItBaked) {
 }
 
 TEST(Bake, PointsGetTheClosedFormOfTheirSurface) {
-    // Points of a sphere of radius 1 that face inward: within R, the sphere takes the share R²/4 of the cosine-weighted
-    // hemisphere.
+    // Points of a sphere of radius 1 that face inward: within R, the sphere covers the share R²/4 of the
+    // cosine-weighted hemisphere.
     Mesh points;
     for (std::size_t i = 0; i < 20000; ++i) {
         const double z = 1.0 - 2.0 * (static_cast<double>(i) + 0.5) / 20000.0, angle = 2.399963229728653 * double(i);

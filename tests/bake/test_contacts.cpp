@@ -92,7 +92,7 @@ struct Expected {
     std::function<bool(const Vec3d&)> at;
 };
 
-/// The mean ao at each place, and the largest deviation from it within three times the tolerance.
+/// Expects the mean ao at each group of points, and no deviation from it by more than three times the tolerance.
 void expect_ao(const Mesh& mesh, const Length& radius, const std::vector<Expected>& expected,
                const BakeOptions& scene = {}) {
     for (const Way& run : runs()) {
@@ -143,7 +143,7 @@ TEST(Contacts, EdgesAndCornersOfARoom) {
               {{"wall", 1.0, at_walls(1)}, {"edge", 0.5, at_walls(2)}, {"corner", 0.25, at_walls(3)}});
 }
 
-// The cosine-weighted share of a quadrant around its middle, and of an octant around its.
+// The cosine-weighted share of a quadrant around its middle direction, and that of an octant around its own.
 TEST(Contacts, EdgesAndCornersOfAWeldedRoom) {
     const Mesh room = turned_inside_out(box_mesh({1, 1, 1}, 8));
     const Baked baked = bake(room, {.radius = "0.5", .method = "exact", .parameters = {{"rays", 1024}}});
@@ -235,7 +235,7 @@ TEST(Contacts, TJunctions) {
     const auto large = mesh.vertex_count();
     add_part(mesh, split_by_side(moved(box_mesh({1, 1, 1}, 2), {0, 1, 0})), 1.0, {0, 0, 0});
     const auto at_foot = [&, large](const Vec3d& p) {
-        // The middles of the lower edges of the sides, which come before those of the bottom or after them.
+        // Only the middles of the lower edges of the sides; vertices of the bottom at the same positions do not count.
         const auto v = static_cast<std::size_t>(&p - mesh.positions.data());
         if (v < large || !is_near(p.y, 0.0) || !(is_near(p.x, 0.0) != is_near(p.z, 0.0)))
             return false;
@@ -250,7 +250,7 @@ TEST(Contacts, TJunctions) {
     expect_ao(mesh, "0.9", {{"foot", 0.5, at_foot}});
 }
 
-// A seam of an unwrapped texture splits vertices, but the surface goes on.
+// A seam of an unwrapped texture splits vertices, but the surface continues.
 TEST(Contacts, SeamsOfSmoothSurfacesKeepTheirValues) {
     const Mesh sphere = test::sphere_mesh(4);
     Mesh split;
@@ -283,7 +283,7 @@ TEST(Contacts, SeamsOfSmoothSurfacesKeepTheirValues) {
     }
 }
 
-// Each of two parts far apart has the occlusion of the part alone, whatever the diagonal of both.
+// Each of two distant parts has the same occlusion as alone, whatever the diagonal of both.
 TEST(Contacts, SmallRadiiInLargeScenes) {
     Mesh part = floor_mesh(1.0, 16);
     const auto wall_begin = part.vertex_count();
@@ -311,7 +311,7 @@ TEST(Contacts, SmallRadiiInLargeScenes) {
             EXPECT_GT(*far.rmse, 0.7 * rmse - 0.01) << run.name << ", R/D = " << ratio;
         }
     }
-    // Where the field does not help, and at few vertices, guided casts more than its default of 3 rays.
+    // Where the field does not help, and on meshes with few vertices, guided casts more than its default of 3 rays.
     Mesh both = part;
     add_part(both, part, 1.0, Vec3d(1e4 * radius, 0, 0));
     const Baked truth = bake(part, {.radius = Length(radius), .method = "exact", .parameters = {{"rays", 1024}}});

@@ -126,7 +126,7 @@ TEST_F(Piloting, MeasuresErrorsAtOtherSurfelsThanItsLabels) {
         });
         float& value = ao[static_cast<std::size_t>(label - mesh_.surfels.begin())];
         EXPECT_NEAR(pilot_.labels()->ao[i], value, 0.02f);
-        value = 1.0f - value; // not noticed
+        value = 1.0f - value; // without effect on the pilot
     }
     EXPECT_LT(pilot_.rmse(ao), 0.005);
     const MeasuredMesh small("sphere", test::sphere_mesh(2));

@@ -47,7 +47,7 @@ TEST(Selection, ExcludedPartsDoNotOcclude) {
     const std::vector<float> floor = ao({.exclude = {"lid"}});
     EXPECT_TRUE(all_are(floor, 1.0f));
     const Baked baked = bake(floor_and_lid(), {.radius = "10%", .method = "exact", .faces = {.exclude = {"lid"}}});
-    EXPECT_NEAR(baked.radius, 0.1 * std::sqrt(2.0), 1e-6); // of what is left
+    EXPECT_NEAR(baked.radius, 0.1 * std::sqrt(2.0), 1e-6); // of the remaining faces
 }
 
 TEST(Selection, PartsThatDoNotOccludeAreStillBaked) {

@@ -1,4 +1,4 @@
-/// Several inputs in one run, and what the planner does by default.
+/// Several inputs in one run, and the planner's defaults.
 #include "baked.h"
 #include "program.h"
 #include "shapes.h"

@@ -86,7 +86,7 @@ TEST_F(BakeGrids, ADenseMeshIsThinnedUnlessItsGridIsKept) {
 }
 
 TEST_F(BakeGrids, AGridOfAnotherFrameServesItsMesh) {
-    // The grid of the whole sphere for one half of it: the bounding boxes, and so the diagonals, differ.
+    // Uses the grid of the whole sphere for one half of it: the bounding boxes, and so the diagonals, differ.
     write_sphere(1.0f / 200.0f, 0.2f);
     Mesh half;
     add_part(half, sphere_mesh(4, [](const Vec3d& p) { return p.y > 0.0; }), 2.0, center_);

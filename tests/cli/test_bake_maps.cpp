@@ -14,7 +14,7 @@ namespace {
 
 class BakeMaps : public ProgramTest {
   protected:
-    /// A box whose six sides have a cell of the texture each, with hard edges.
+    /// A box with hard edges, each of whose six sides has a cell of the texture.
     void write_box(const std::string& file, const Vec2& shift = Vec2(0.0f)) const {
         Mesh box = box_mesh(Vec3d(1.0), 1);
         for (std::size_t f = 0; f < box.face_count(); ++f)

@@ -231,8 +231,9 @@ TEST_F(BakeVerb, WeldJoinsVerticesWhoseNormalsAreComputed) {
         const Outcome outcome = run({"bake", "valley.obj", "-o", "a.ply", "--weld", "1e-5", "--normals", normals,
                                      "--method", "exact", "--rays", "1024", "--radius", "0.01"});
         ASSERT_EQ(outcome.code, done) << outcome.err;
-        // Around the mean normal, the quadrant has √½ of the sky; at the end of the valley, half of the sky is open.
-        // Apart, each vertex would have half of the sky on that side: 0.75.
+        // The valley ends at the vertices, so half of the sky is open. In the other half, the quadrant covers √½ of the
+        // sky around the mean normal, but only half of it around the normal of a vertex that is not joined, which would
+        // give 0.75.
         const std::vector<float> ao = read_baked(folder_ / "work/a.ply").ao;
         ASSERT_EQ(ao.size(), 8u);
         EXPECT_EQ(ao[0], ao[4]) << normals;

@@ -73,13 +73,13 @@ TEST_F(Limits, LessMemoryMakesAGridCoarser) {
     EXPECT_GT(voxel("10MB"), 1.5 * voxel("1GB"));
     expect_refusal({"voxelize", mesh, "-o", "out.vdb", "--voxel", "0.1%", "--max-memory", "30MB", "--max-read", "1GB"},
                    bad_input, {"over the limit of 0.03 GB", "--voxel", "--max-memory"});
-    // A memory limit that nothing fits is no reason to refuse rays on the mesh.
+    // A memory limit that no grid fits is no reason to refuse rays on the mesh.
     EXPECT_EQ(run({"bake", "cube.off", "-o", "out.ply", "--method", "exact", "--max-memory", "10kB"}).code, done);
     expect_refusal({"bake", "cube.off", "-o", "out.ply", "--method", "traced", "--max-memory", "10kB"}, bad_input,
                    {"cube.off", "--max-memory"});
 }
 
-/// Whatever comes first, the refusal or the limit.
+/// The output is one line, whichever comes first: the refusal or the limit.
 TEST_F(Limits, ARefusalAtTheTimeLimitIsOneLine) {
     write("damaged.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
     for (int i = 1; i <= 100; ++i) {

@@ -74,7 +74,7 @@ Mesh with_faces_twice(const Mesh& mesh) {
     return twice;
 }
 
-/// Compares with exact rays at vertices outside of the solid only: those inside should be buried, but rays that start
+/// Compares with exact rays only at vertices outside the solid: those inside should be buried, but rays that start
 /// behind the faces escape.
 Result outside_against_exact(const Mesh& mesh, const Methods& methods, double bound) {
     const Baked baked(mesh);

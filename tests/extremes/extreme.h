@@ -1,4 +1,4 @@
-/// A table of extreme cases: what is done to a mesh, what the result must be, and what it is.
+/// A table of extreme cases: the change to a mesh, the required result, and the actual one.
 #pragma once
 
 #include "alcove/grid/voxelize.h"

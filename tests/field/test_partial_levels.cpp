@@ -34,8 +34,8 @@ void add_box(Mesh& mesh, const Vec3d& low, const Vec3d& high) {
 
 constexpr double voxel = 1.0 / 256.0; // of the diagonal, which is 1 here
 
-/// A cube with a small plate beside it, on which `thickness` is that of the plate in voxels. The plate is turned by no
-/// angle and its place is no multiple of the voxel.
+/// A cube with a small plate beside it that is `thickness` voxels thick. The plate is not rotated, and its position is
+/// not a multiple of the voxel.
 Mesh cube_and_plate(double thickness) {
     Mesh mesh;
     add_box(mesh, {-0.3, -0.3, -0.3}, {0.1, 0.3, 0.3});

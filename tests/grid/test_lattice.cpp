@@ -1,4 +1,4 @@
-/// Grids on one lattice can be combined voxel by voxel, whatever the place and size of their meshes.
+/// Grids on one lattice can be combined voxel by voxel, whatever the positions and sizes of their meshes.
 #include "alcove/field/level_stack.h"
 #include "alcove/grid/detail/vdb_grid.h"
 #include "alcove/grid/voxelize.h"

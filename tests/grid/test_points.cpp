@@ -1,4 +1,4 @@
-/// surface_of_points(): surfaces with known places.
+/// surface_of_points(): surfaces at known positions.
 #include "alcove/grid/voxelize.h"
 
 #include "alcove/base/types.h"
@@ -105,7 +105,7 @@ TEST(Points, OutliersDuplicatesAndBrokenPointsDoNoHarm) {
     EXPECT_TRUE(has_warning(surface.mesh, "are outliers"));
     EXPECT_TRUE(has_warning(surface.mesh, "3,000 points repeat the position of another"));
     EXPECT_TRUE(has_warning(surface.mesh, "1 point has coordinates that are not finite"));
-    EXPECT_EQ(surface.positions[24000], surface.positions[0]); // a duplicate has the place of its twin
+    EXPECT_EQ(surface.positions[24000], surface.positions[0]); // a duplicate has the position of its twin
     EXPECT_EQ(surface.normals[24000], surface.normals[0]);
     EXPECT_EQ(surface.normals.back(), Vec3(0.0f));
 }
@@ -118,7 +118,7 @@ TEST(Points, MissingNormalsAreEstimatedAndPointOutward) {
     for (std::size_t i = 0; i < truth.size(); ++i)
         ASSERT_GT(glm::dot(surface.normals[i], truth[i]), 0.98f);
     EXPECT_LT(error_of_sphere(surface.mesh), 0.2 * spacing_of_sphere(5000));
-    // Those that there are tell the side of the others.
+    // The normals that exist determine the orientation of the others.
     points.normals.assign(5000, Vec3(0.0f));
     points.normals[7] = -truth[7];
     const PointSurface inward = surface_of_points(points);

@@ -62,7 +62,7 @@ TEST(Solidity, CrossingPartsAreOneSolid) {
     EXPECT_NE(stack.warnings[0].find("1 of 2 parts faces inward, so its AO"), std::string::npos) << stack.warnings[0];
 }
 
-/// The cube in the middle is buried, but belongs to the whole, as its vertices are those of its neighbours.
+/// The cube in the middle is buried, but belongs to the whole, because it shares its vertices with its neighbours.
 TEST(Solidity, CubesThatTouchAreOneSolid) {
     Mesh cubes;
     for (int i = 0; i < 27; ++i) {

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Archive, SolidMesh,
 INSTANTIATE_TEST_SUITE_P(Overlapping, SolidMesh,
                          testing::Values("cow.off", "camel.off", "elk.off", "bones.off", "diplodocus.off", "man.off"));
 
-/// Distances of a sheet are as exact; the sign of its inside is checked up to half a voxel from a face.
+/// Distances of a sheet are just as exact; the sign of its inside is checked up to half a voxel from a face.
 TEST(SheetMesh, DistancesAreExact) {
     const test::RealMesh real("ChineseDragon-10kv.off");
     expect_exact_distances(LevelStack(voxelize_at_128(real)), Sign::sheet, real);

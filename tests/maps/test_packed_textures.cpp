@@ -44,14 +44,14 @@ std::string grey_jpeg(int width, int height, int grey) {
     return result;
 }
 
-/// A PNG of 2 × 2 texels: red 9, green and blue by texel.
+/// A PNG of 2 × 2 texels: red is 9, green and blue differ between texels.
 std::string orm_png() {
     return encode_png_file(2, 2, 3, 8, std::vector<std::uint16_t>{9, 10, 20, 9, 11, 21, 9, 12, 22, 9, 13, 23});
 }
 
 class PackedTextures : public ScratchFiles {
   protected:
-    /// An image, and the texture of it with a sampler.
+    /// Adds an image, and a texture of it with a sampler.
     static std::size_t add_texture(GltfBuilder& builder, const std::string& bytes) {
         const std::size_t view = builder.add_view(std::vector<char>(bytes.begin(), bytes.end()));
         builder.json["samplers"] = {{{"wrapS", 33071}}};
@@ -59,7 +59,7 @@ class PackedTextures : public ScratchFiles {
         builder.json["textures"].push_back({{"source", builder.json["images"].size() - 1}, {"sampler", 0}});
         return builder.json["textures"].size() - 1;
     }
-    /// A square with that material whose UVs fill the texture, beside the others.
+    /// Adds a square with that material beside the others; its UVs fill the texture.
     static void add_square(GltfBuilder& builder, const Json& material) {
         Json square = builder.square();
         const std::vector<float> uvs{0, 0, 1, 0, 1, 1, 0, 1};
@@ -106,7 +106,7 @@ class PackedTextures : public ScratchFiles {
         std::memcpy(&length, bytes.data() + 12, sizeof(length));
         return {Json::parse(bytes.substr(20, length)), bytes.substr(28 + length)};
     }
-    /// The image that a material has as occlusion, of a .glb.
+    /// The occlusion image of a material in a .glb.
     Png occlusion(const std::string& name, std::size_t material) const {
         const Written file = written(name);
         const std::size_t texture = file.json["materials"][material]["occlusionTexture"]["index"];

@@ -86,7 +86,7 @@ TEST(Projection, HeightNormalAndPositionOfAWave) {
 TEST(Projection, TheFirstOutwardFaceCountsAndObjectsAreNumbered) {
     const auto at = [](double z) { return [z](double, double) { return z; }; };
     Mesh upside_down = high_square(4, at(0.2));
-    std::reverse(upside_down.corners.begin(), upside_down.corners.end()); // its back is above, so it is passed
+    std::reverse(upside_down.corners.begin(), upside_down.corners.end()); // its back is above, so rays pass through it
     MapOptions options = options_with({high_square(4, at(-0.1)), high_square(4, at(0.05)), upside_down});
     options.reach = Length("0.5");
     const BakedMaps maps = bake_maps(low_square(), nothing, options);
@@ -165,7 +165,8 @@ TEST(Projection, ASphereProjectsOntoAFinerOne) {
 }
 
 TEST(Projection, ACageLooksInItsOwnDirection) {
-    // Beside a step of the high mesh, the normal meets its top, and a slanted cage its side.
+    // Beside a step of the high mesh, a ray along the normal meets the top of the step, and one from a slanted cage its
+    // side.
     const Mesh low = low_square();
     const std::vector<Mesh> high{high_square(48, [](double x, double) { return x < 0.0 ? 0.0 : 0.2; })};
     MapOptions options = options_with(high);

@@ -1,5 +1,4 @@
-/// Maps with so many texels that only every fourth of them is baked, and the charts between whose texels they are
-/// interpolated.
+/// Maps with so many texels that only every fourth is baked, and the charts within which the others are interpolated.
 #include "alcove/maps/detail/charts.h"
 #include "alcove/maps/maps.h"
 
@@ -20,7 +19,7 @@ const std::vector<float>& ao_of(const BakedMaps& maps) {
     return maps.tiles.front().layers.front().values;
 }
 
-/// A square floor whose texture it fills.
+/// A square floor that fills its texture.
 Mesh floor_of(double side) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}};

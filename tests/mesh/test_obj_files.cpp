@@ -16,7 +16,7 @@ class ObjFiles : public ScratchFiles {
             write(name, "newmtl a\n");
     }
 
-    /// The text after a triangle with that line is written to `file`; keeps the messages.
+    /// Writes a triangle after that line to `file`, and keeps the messages. \return the text before the triangle.
     std::string written(const std::string& line, const std::string& file = "out/a.obj") {
         told_ = write_mesh(read("in/a.obj", line + triangle), path(file));
         const std::string text = bytes_of(file);

@@ -184,7 +184,7 @@ TEST_F(Off, TheNumbersDecideTheOrderOfTheValues) {
 }
 
 TEST_F(Off, TheOrderOfTheFormatStaysWhereTheNumbersDoNotDecide) {
-    // The normals of the format's order are not of unit length either, so that both orders fit equally.
+    // In the format's order, the normals are not of unit length either, so both orders fit equally.
     const Mesh mesh = read("in.off", off_of("CNOFF", " 0 0 5 255 0 0"));
     EXPECT_EQ(mesh.normals[0], Vec3(0, 0, 1));
     EXPECT_EQ(mesh.vertex_colors[0], (Color{255, 0, 0, 255}));

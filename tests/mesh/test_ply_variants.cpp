@@ -1,4 +1,4 @@
-// What exporters write besides the plain vertices and faces: strips, names, ranges of colours, text behind the rows.
+// What exporters write besides the plain vertices and faces: strips, names, ranges of colours, text after the rows.
 #include "scratch_files.h"
 
 #include "alcove/mesh/formats/ply/ply_document.h"

@@ -81,7 +81,7 @@ TEST_F(TessellateValues, OfCornersStayApartAcrossASeam) {
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
     mesh.add_face(std::vector<std::uint32_t>{0, 1, 2, 3});
     mesh.add_face(std::vector<std::uint32_t>{1, 4, 5, 2});
-    // The right face is at another place in the texture, and mirrored.
+    // The right face is elsewhere in the texture, and mirrored.
     mesh.corner_uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {9, 0}, {8, 0}, {8, 1}, {9, 1}};
     const Mesh result = tessellate(mesh, {.longest = 0.3});
     ASSERT_EQ(result.corner_uvs.size(), result.corners.size());

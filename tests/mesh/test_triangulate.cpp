@@ -106,7 +106,7 @@ std::vector<Vec2d> spiral_of(std::size_t steps, double angle_per_step) {
     return spiral;
 }
 
-/// A side of Koch's snowflake, to the right of the way from `a` to `b`, without its end.
+/// A side of Koch's snowflake, to the right of the path from `a` to `b`, without its end.
 void add_koch(std::vector<Vec2d>& outline, const Vec2d& a, const Vec2d& b, int depth) {
     if (depth == 0) {
         outline.push_back(a);
@@ -120,8 +120,8 @@ void add_koch(std::vector<Vec2d>& outline, const Vec2d& a, const Vec2d& b, int d
     add_koch(outline, b - third, b, depth - 1);
 }
 
-/// A unit square with rows of square holes that take a quarter of its area. A bridge leads through the holes of each row
-/// from the left side; the outline follows it there and back.
+/// A unit square with rows of square holes that take a quarter of its area. A bridge leads through the holes of each
+/// row from the left side; the outline follows it there and back.
 std::vector<Vec2d> sieve_of(int rows) {
     std::vector<Vec2d> outline{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const double cell = 1.0 / rows, half = 0.25 * cell;

@@ -57,7 +57,7 @@ def damage_bytes(data, rng):
     data = bytearray(data)
     for _ in range(rng.randint(1, 6)):
         kind = rng.randrange(5)
-        # Mostly hit the front: the header and the grid descriptors.
+        # Mostly damage the front: the header and the grid descriptors.
         at = rng.randrange(min(len(data), 2000)) if rng.random() < 0.8 else rng.randrange(len(data))
         if kind == 0:
             data[at] ^= 1 << rng.randrange(8)

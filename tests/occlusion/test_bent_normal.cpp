@@ -26,7 +26,7 @@ std::vector<Vec3> bent_normals(const std::vector<Surfel>& surfels, const F& fiel
 }
 
 /// Half of the sky is hidden at the foot of an infinite wall. The cosine-weighted mean over the open quarter sphere is
-/// between the normals of floor and wall, at tan = (4/3) / (2 pi/3) = 2/pi from the floor's normal.
+/// between the normals of floor and wall. The tangent of its angle to the floor's normal is (4/3) / (2 pi/3) = 2/pi.
 TEST(BentNormal, AtTheFootOfAWallInClosedForm) {
     const Union corner(Plane{}, Plane{{1, 0, 0}, 0.0f});
     const std::vector<Surfel> surfels{{{0.001f, 0, 0}, {0, 1, 0}}};

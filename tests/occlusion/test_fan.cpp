@@ -149,7 +149,8 @@ TEST(Fan, TakesAllTrianglesAroundAVertexWithMany) {
     EXPECT_TRUE(others.empty());
 }
 
-/// Rays through the batch interface, next to a triangle that is in no fan; orientation as that of the triangles.
+/// Rays through the batch interface, next to a triangle that is in no fan; normals have the orientation of the
+/// triangles.
 TEST(Fan, IsPartOfARaySurface) {
     Triangles shape = ring(2 * smallest_fan, 0.0f, 0.0f);
     const auto first = static_cast<std::uint32_t>(shape.positions.size());

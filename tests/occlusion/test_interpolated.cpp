@@ -147,7 +147,7 @@ TEST(Interpolated, ContactsAreEvaluatedAndSurfelsWithoutNormalGetOne) {
 }
 
 TEST(Interpolated, IsRefusedWhereNeighboursDisagree) {
-    // One ray each, of which a ceiling stops half.
+    // One ray per surfel; a ceiling stops half of them.
     const Occluders occluders(squares({floor_square, {Vec3(-50, 0.07f, -50), Vec3(100, 0, 0), Vec3(0, 0, 100)}}));
     const std::vector<Surfel> surfels = floor_surfels(100);
     EXPECT_FALSE(interpolated(surfels, occluders, exact(1), {16, 0.02f, 0.5}));

@@ -25,7 +25,8 @@ TEST(Thickness, OfExactShapes) {
     EXPECT_NEAR(thickness({{0.7f * n, n}}, Sphere{{0, 0, 0}, 0.7f}, 2.0f).front(), 1.4f, 1e-3f);
 }
 
-// Against an inward normal there is no solid. Where nothing limits the ray, the thickness is the radius or twice the extent.
+// Against an inward normal there is no solid. Where nothing limits the ray, the thickness is the radius or twice the
+// extent.
 TEST(Thickness, AgainstInwardNormalsAndWithoutAFarSide) {
     const Mesh sphere = test::sphere_mesh(4);
     const test::Voxelized ball(sphere, 0.3f, 1.0f / 64);

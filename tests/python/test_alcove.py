@@ -58,7 +58,7 @@ def grid(n):
 
 
 def memory(name):
-    """Bytes of this process, such as VmRSS, the current ones, and VmHWM, the peak."""
+    """The memory of this process in bytes: VmRSS is the current amount, VmHWM the peak."""
     with open("/proc/self/status") as status:
         return next(1024 * int(line.split()[1]) for line in status if line.startswith(name))
 

@@ -211,7 +211,7 @@ TEST(Staging, DistancesReachAsFarAsShadowsAsk) {
     EXPECT_LT(distance_at(1.7), 0.68); // a lower bound only, because no larger reach is needed
 }
 
-/// A folder with a tetrahedron, and scenes of many of it in a row.
+/// A folder with a tetrahedron, and scenes of many copies of it in a row.
 class ManyObjects : public testing::Test {
   protected:
     ManyObjects() {
@@ -246,7 +246,7 @@ TEST_F(ManyObjects, OfOneFileShareItsMeshAndGrid) {
     const auto distance = [&](const Vec3d& p) {
         return double(built.renderable.field.map(built.renderable.frame.to_unit(p))) * built.renderable.frame.diagonal;
     };
-    // Above the face x + y + z = 1, half a unit to the left of the face x = 0, and in front of the turned one.
+    // Above the face x + y + z = 1, half a unit to the left of the face x = 0, and in front of the rotated one.
     EXPECT_NEAR(distance(Vec3d(18.0, 0, 0) + Vec3d(1.0 / 3.0 + 0.1)), 0.1 * std::sqrt(3.0), 0.01);
     EXPECT_NEAR(distance({117.9, 0.2, 0.2}), 0.1, 0.01);
     EXPECT_NEAR(distance({1.8, -0.1, 0.1}), 0.1, 0.01);

@@ -147,7 +147,8 @@ TEST_F(BallFile, OfAnObjectAreNotTakenForThoseOfOneThatCrossesIt) {
     EXPECT_GT(seen, 500);
 }
 
-/// A coarse field rounds outlines up. What shows there is what the ray meets next: another object, or the ground.
+/// A coarse field extends beyond the outlines. Samples there show what the ray meets next: another object, or the
+/// ground.
 TEST_F(BallFile, OutlinesAreThoseOfTheTriangles) {
     std::ofstream(folder_ / "square.off") << "OFF 4 1 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n4 0 1 2 3\n";
     const std::string square = "[[object]]\nshape = \"mesh\"\nfile = \"" + (folder_ / "square.off").string() + "\"\n";

@@ -72,7 +72,7 @@ double distance_between(const GridStack& a, const GridStack& b) {
     const double voxel = p.voxel * a.frame.diagonal;
     const Vec3d low = a.frame.to_scene(p.origin), other_low = b.frame.to_scene(q.origin);
     double difference = glm::length(low - other_low) / voxel;
-    // The difference of voxel sizes adds up to the far end of the grid.
+    // The difference of voxel sizes adds up toward the far end of the grid.
     difference = std::max(difference, std::fabs(q.voxel * b.frame.diagonal / voxel - 1.0) * 64.0);
     for (const auto& [from, to] : {std::pair(&p, &q), std::pair(&q, &p)}) {
         const double from_unit = from == &p ? a.value_unit : b.value_unit,
@@ -187,7 +187,7 @@ TEST_P(DamagedGrids, OfOursAreRefusedOrRight) {
     damage("ours", stack, 0.0, nullptr);
 }
 
-/// Values that are wrong by less than their neighbours reveal cannot be detected, nor can a wrong translation.
+/// Errors that are too small to show against the neighbours cannot be detected, nor can a wrong translation.
 TEST_P(DamagedGrids, OfOtherProgramsAreRefusedWarnedOfOrNear) {
     const auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(1.0f, {2, 2, 2}, 0.1f);
     const openvdb::Vec3d translation(5, 6, 7);

@@ -1,4 +1,4 @@
-/// Which grids of a file are read, and as what.
+/// Which grids of a file are read, and how.
 #include "grid_file.h"
 
 #include "alcove/field/level_stack.h"
@@ -33,7 +33,7 @@ DoubleGrid::Ptr doubled(const FloatGrid::Ptr& grid) {
     return doubles;
 }
 
-/// Doubles that came from floats are read as these floats are, however they are stored.
+/// Doubles that were converted from floats are read as those floats, however they are stored.
 TEST_F(Selection, DoublesAreReadAsFloatsAre) {
     const auto floats = ball("surface", 1.0f, {0, 0, 0});
     write_foreign(floats, "floats.vdb", 0);
@@ -101,7 +101,7 @@ TEST_F(Selection, GridsMayShareATree) {
     EXPECT_NEAR(box_of({"right"}).min.x, 3.0, 0.01);
 }
 
-/// Distances to a union of balls, on one lattice and on lattices that differ in size, place and direction.
+/// Distances to a union of balls, on one lattice and on lattices that differ in size, position and orientation.
 TEST_F(Selection, UnionsHoldDistancesToTheNearerSurface) {
     for (const bool same : {true, false}) {
         const auto a = ball("a", 1.0f, {0, 0, 0}), b = ball("b", 0.8f, {1.2f, 0, 0}, same ? 0.1f : 0.07f);

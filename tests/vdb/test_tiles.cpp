@@ -20,7 +20,7 @@ class Tiles : public GridFile {
         grid->setGridClass(openvdb::GRID_LEVEL_SET);
         return grid;
     }
-    /// What read_grids() says within two seconds of CPU time.
+    /// The message of read_grids(), which must take at most two seconds of CPU time.
     std::string quick_refusal(const FloatGrid::Ptr& grid) const {
         write_foreign(grid, "tiles.vdb", 0);
         const std::clock_t begin = std::clock();

@@ -113,7 +113,7 @@ TEST_F(Transforms, TurnsScalesAndMirrorsMayBeCombined) {
     EXPECT_TRUE(stack_.warnings.empty());
 }
 
-/// A ball that is stretched by 2 along y becomes an ellipsoid, and its values are computed anew as distances.
+/// A ball that is stretched by 2 along y becomes an ellipsoid, and its values are recomputed as distances.
 TEST_F(Transforms, StretchedVoxelsBecomeCubes) {
     const auto grid = ball("clay", 1.0f, {0, 0, 0}, 0.05f);
     grid->transform().preScale(Vec3d(1, 2, 1));
@@ -191,7 +191,7 @@ TEST_F(Transforms, FrustumsAreRefusedByName) {
         << refusal("frustum.vdb");
 }
 
-/// A large grid that is turned is estimated before it is made.
+/// The memory of a large rotated grid is estimated before the grid is made.
 TEST_F(Transforms, WhatDoesNotFitIsRefused) {
     const auto grid = ball("ball", 1.0f, {0, 0, 0}, 0.05f);
     const auto fine = ball("fine", 0.01f, {2, 0, 0}, 0.0005f);

@@ -188,7 +188,7 @@ TEST_F(GridFile, LengthsOfValuesAreNotBelieved) {
             std::ofstream(path("damaged.vdb"), std::ios::binary) << damaged;
             refused += refusal("damaged.vdb") != "read";
         }
-        EXPECT_GT(refused, 0) << compression; // and no buffer overflows
+        EXPECT_GT(refused, 0) << compression; // and no buffer overflowed
     }
 }
 
