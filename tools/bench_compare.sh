@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Finds slowdowns: builds the benchmarks of two revisions, runs them in turns, and fails if the median CPU time of a
+# Finds slowdowns: builds the benchmarks of two revisions, runs them in turn, and fails if the median CPU time of a
 # benchmark in HEAD is more than BOUND times that in BASE. Benchmarks that seem slower are measured again by themselves,
 # twice, and count only if they are slower each time, because the load of the machine varies.
 #

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Tests Alcove with the programs of others. glTF: Blender's exporter and gltfpack make the inputs, the Khronos validator
-# checks the outputs, and three.js and Alcove show the same colours; the pictures are in build/interop. Blender: the
-# add-on. Python: the module as pip installs it. Debian: the packages, see tools/test_packages.sh.
+# Tests Alcove together with other programs. glTF: Blender's exporter and gltfpack make the inputs, the Khronos
+# validator checks the outputs, and three.js and Alcove show the same colours; the pictures are in build/interop.
+# Blender: the add-on. Python: the module as pip installs it. Debian: the packages, see tools/test_packages.sh.
 #
-#     tools/interop.sh [--installed]    # with --installed: without what is not installed or builds again, naming it
+#     tools/interop.sh [--installed]    # with --installed: skips and names what is not installed or needs a build
 set -euo pipefail
 cd "$(dirname "$0")/.."
 builds=true

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds Debian packages in build-package: alcove (program), libalcove0.2, libalcove-dev, python3-alcove, alcove-blender, and
-# a source tarball. Checks them with lintian, and lists the licences of everything that is linked.
+# Builds Debian packages in build-package: alcove (program), libalcove0.2, libalcove-dev, python3-alcove,
+# alcove-blender, and a source tarball. Checks them with lintian, and lists the licences of everything that is linked.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/setup.sh dpkg-dev help2man lintian
