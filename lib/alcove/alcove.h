@@ -8,8 +8,8 @@
 ///     alcove::add(mesh, baked);
 ///     alcove::write_mesh(mesh, "dragon_ao.ply");
 ///
-/// Images are those of alcove::alcove_render: alcove/scene/scene.h and alcove/render/. The adapter for OpenMesh is
-/// alcove/bake/openmesh.h.
+/// Rendering is in the library alcove::alcove_render: alcove/scene/scene.h and alcove/render/. The adapter for OpenMesh
+/// is alcove/bake/openmesh.h.
 #pragma once
 
 #include "alcove/base/parallel.h"
