@@ -72,9 +72,9 @@ TEST_F(Piloting, TellsHowHardATruthIs) {
 
 TEST(PilotFor, TakesMoreRaysOfFewerSurfelsTheSmallerTheError) {
     double rays = 0.0;
-    for (const double error : {0.5, 0.05, 0.02, 0.01, 0.005, 0.001}) {
+    for (const double error : {0.5, 0.05, 0.03, 0.02, 0.01, 0.005, 0.001}) {
         const PilotOptions options = pilot_for(error);
-        if (error >= 0.005) {
+        if (error >= 0.005 && error <= 0.03) {
             EXPECT_EQ(options.surfels * static_cast<std::size_t>(options.rays), 4096u * 128u);
         }
         EXPECT_GE(options.rays, rays);
@@ -82,6 +82,7 @@ TEST(PilotFor, TakesMoreRaysOfFewerSurfelsTheSmallerTheError) {
         rays = options.rays;
     }
     EXPECT_EQ(pilot_for(0.05).surfels, 4096u);
+    EXPECT_EQ(pilot_for(0.05).rays, 64);
     EXPECT_EQ(pilot_for(0.005).surfels, 1024u);
 }
 

@@ -90,7 +90,7 @@ class MapBake {
         // With a small error, the noise of the rays is as large as the error allows, so neighbours differ by more.
         constexpr double least_error = 0.01;
         if (error >= least_error && options.subsamples == 1 && !high_ && bake.attributes == Channel::ao)
-            tolerance_ = static_cast<float>(error);
+            sparse_error_ = static_cast<float>(error);
     }
 
     BakedMaps run() {
@@ -174,9 +174,8 @@ class MapBake {
                                                                      tile.owners.triangles.end(), no_triangle));
         if (options_.udim && covered == 0)
             return;
-        // With fewer texels, the samples may be too sparse for the interpolation of surfels, which saves more.
-        constexpr std::size_t many = 1'000'000, dense = 16; // texels; texels per triangle
-        tile.is_sparse = tolerance_ > 0.0f && covered >= many && covered >= dense * faces.uvs().size();
+        if (sparse_error_ > 0.0f)
+            tile.stride = stride_of_samples(covered, faces.uvs().size(), sparse_error_);
         const auto per_side = static_cast<std::size_t>(options_.subsamples);
         maps_.overlaps += tile.owners.overlaps / (per_side * per_side);
         tile.map.udim = udim;
@@ -186,14 +185,15 @@ class MapBake {
         tile.wanted.assign(texels_, 0);
         tiles_.push_back(std::move(tile));
         const auto number = static_cast<std::uint32_t>(tiles_.size() - 1);
-        if (tiles_[number].is_sparse)
+        if (tiles_[number].stride > 1)
             faces.add_charts();
-        each_texel_in_blocks(tiles_[number].uvs, [&](std::size_t i, int complete_rows) {
+        each_texel_in_blocks(tiles_[number].uvs, [&](std::size_t x, std::size_t y, int complete_rows) {
             OpenTile& open = tiles_[number];
+            const std::size_t i = y * static_cast<std::size_t>(open.uvs.width) + x;
             if (open.owners.triangles[i] == no_triangle)
                 return;
             open.wanted[texel_of(i)] = 1;
-            if (open.is_sparse && texels_around(open, i).count > 0)
+            if (open.stride > 1 && texels_around(open, x, y).any())
                 return;
             if (samples_.size() == batch) {
                 open.sampled_rows = complete_rows;
@@ -239,7 +239,7 @@ class MapBake {
         std::size_t between = 0; // interpolated texels
         if (sampled > 0) {
             SurfacePoints points = projection_ ? points_of(projected) : points_of_samples();
-            if (tolerance_ > 0.0f)
+            if (sparse_error_ > 0.0f)
                 points.more = [&](std::span<const float> ao) { return interpolate(ao, between); };
             Baked baked;
             if (!bake_.attributes.empty())
@@ -268,12 +268,13 @@ class MapBake {
     /// Interpolates the texels between samples, whose ao is given. Texels whose neighbours differ are appended to the
     /// samples. \return the points of the new samples
     std::vector<SurfacePoint> interpolate(std::span<const float> ao, std::size_t& between) {
+        const float tolerance = 2.0f * sparse_error_; // as noise makes neighbours differ, too
         for (std::size_t i = 0; i < ao.size(); ++i)
             tiles_[samples_[i].tile].map.layers.front().values[samples_[i].index] = ao[i];
         const std::size_t sampled = samples_.size();
         for (auto number = static_cast<std::uint32_t>(finished_); number < tiles_.size(); ++number)
-            if (tiles_[number].is_sparse)
-                for (const std::uint32_t texel : interpolate_between(tiles_[number], tolerance_, between))
+            if (tiles_[number].stride > 1)
+                for (const std::uint32_t texel : interpolate_between(tiles_[number], tolerance, between))
                     samples_.push_back({number, texel});
         const SurfacePoints all = points_of_samples();
         std::vector<SurfacePoint> points;
@@ -427,7 +428,7 @@ class MapBake {
     std::size_t finished_ = 0;   // of the tiles
     HugeVector<Sample> samples_; // of the batch
     BakedMaps maps_;
-    float tolerance_ = 0.0f; // largest difference of neighbours to interpolate between; 0: none
+    float sparse_error_ = 0.0f; // RMSE of a map whose texels may be interpolated; 0: they may not
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;
 };
 

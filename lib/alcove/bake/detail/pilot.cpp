@@ -37,7 +37,9 @@ double without(double square, double noise2) {
 
 PilotOptions pilot_for(double error) {
     constexpr double rays_at_one = 5.0; // for a noise of at most a quarter of the error
-    return pilot_of(rays_at_one / error);
+    constexpr double loose = 0.04;      // a third is enough, as there is little noise to subtract
+    constexpr PilotOptions standard{};
+    return error >= loose ? PilotOptions{standard.surfels, standard.rays / 2} : pilot_of(rays_at_one / error);
 }
 
 PilotOptions pilot_beside(int rays) {

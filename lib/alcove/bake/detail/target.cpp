@@ -489,9 +489,12 @@ class TargetBake {
     }
 
     void bake_more() {
-        std::vector<Surfel> more = target_.more(result_.values[Channel::ao]);
-        if (more.empty())
-            return;
+        for (std::vector<Surfel> more = target_.more(result_.values[Channel::ao]); !more.empty();
+             more = target_.more(result_.values[Channel::ao]))
+            evaluate_more(more);
+    }
+
+    void evaluate_more(std::vector<Surfel>& more) {
         const RaySurface& rays = occluders_.rays();
         Stopwatch watch;
         alcove::find_contacts(more, rays, ray_offset(target_.radius), [&](std::size_t i, const Triangle& triangle) {

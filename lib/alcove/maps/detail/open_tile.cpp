@@ -36,55 +36,85 @@ void finish(MapLayer& layer, const MapTile& map, const std::vector<std::uint16_t
                                                                                                   : attribute.missing;
 }
 
+/// Whether `test` is true for all texels around one.
+template <class Test>
+bool all_around(const TexelsAround& around, std::size_t texel, std::size_t width, const Test& test) {
+    const std::size_t rows = around.down * width, across = around.across;
+    return test(texel - rows - across) && test(texel + rows + across) &&
+           (rows == 0 || across == 0 || (test(texel - rows + across) && test(texel + rows - across)));
 }
 
-TexelsAround texels_around(const OpenTile& tile, std::size_t texel) {
-    const std::size_t width = static_cast<std::size_t>(tile.uvs.width), x = texel % width, y = texel / width;
-    const std::size_t across = x % 2, down = (y % 2) * width;
-    if ((across == 0 && down == 0) || (across > 0 && x + 1 == width) ||
-        (down > 0 && y + 1 == static_cast<std::size_t>(tile.uvs.height)))
+/// Interpolates the texels of a row that are at that distance from their neighbours.
+void interpolate_row(OpenTile& tile, std::size_t row, std::size_t distance, float tolerance, std::size_t& count,
+                     std::vector<std::uint32_t>& others) {
+    std::vector<float>& values = tile.map.layers.front().values;
+    const auto width = static_cast<std::size_t>(tile.uvs.width);
+    const bool is_between = (row & distance) != 0;
+    for (std::size_t x = is_between ? 0 : distance; x < width; x += is_between ? distance : 2 * distance) {
+        const std::size_t texel = row * width + x;
+        if (!tile.wanted[texel])
+            continue;
+        const TexelsAround around = texels_around(tile, x, row);
+        if (!around.any())
+            continue;
+        float sum = 0.0f, least = 1.0f, most = 0.0f, neighbours = 0.0f;
+        all_around(around, texel, width, [&](std::size_t i) {
+            sum += values[i];
+            least = std::min(least, values[i]);
+            most = std::max(most, values[i]);
+            ++neighbours;
+            return true;
+        });
+        if (most - least > tolerance) {
+            others.push_back(static_cast<std::uint32_t>(texel));
+            continue;
+        }
+        values[texel] = sum / neighbours;
+        tile.counts[texel] = 1;
+        ++count;
+    }
+}
+
+}
+
+int stride_of_samples(std::size_t covered_texels, std::size_t triangles, float error) {
+    constexpr int largest = 4;
+    constexpr double fewest = 65'000, per_triangle_and_error = 0.07; // samples
+    const double needed = std::max(fewest, per_triangle_and_error / double{error} * static_cast<double>(triangles));
+    int stride = 1;
+    while (stride < largest && static_cast<double>(covered_texels) >= 4.0 * stride * stride * needed)
+        stride *= 2;
+    return stride;
+}
+
+TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y) {
+    const auto width = static_cast<std::size_t>(tile.uvs.width), height = static_cast<std::size_t>(tile.uvs.height);
+    const std::size_t distance = (x | y) & (~(x | y) + 1); // the lowest bit
+    if (distance == 0 || distance >= static_cast<std::size_t>(tile.stride))
         return {};
-    TexelsAround around{{texel - across - down, texel + across + down, texel + across - down, texel - across + down},
-                        across > 0 && down > 0 ? 4u : 2u};
-    const auto chart = [&](std::size_t i) {
+    const TexelsAround around{x & distance, y & distance};
+    if ((around.across > 0 && x + around.across >= width) || (around.down > 0 && y + around.down >= height))
+        return {};
+    const std::size_t texel = y * width + x;
+    const std::uint32_t own = tile.owners.triangles[texel], chart = tile.faces->chart(own);
+    const bool is_inside = all_around(around, texel, width, [&](std::size_t i) {
         const std::uint32_t triangle = tile.owners.triangles[i];
-        return triangle == no_triangle ? no_triangle : tile.faces->chart(triangle);
-    };
-    const std::uint32_t own = chart(texel);
-    if (std::any_of(around.texels.begin(), around.texels.begin() + static_cast<std::ptrdiff_t>(around.count),
-                    [&](std::size_t i) { return chart(i) != own; }))
-        return {};
-    return around;
+        return triangle == own || (triangle != no_triangle && tile.faces->chart(triangle) == chart);
+    });
+    return is_inside ? around : TexelsAround{};
 }
 
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count) {
-    std::vector<float>& values = tile.map.layers.front().values;
     std::vector<std::uint32_t> others;
-    const auto width = static_cast<std::size_t>(tile.uvs.width);
-    const int end = tile.sampled_rows == tile.uvs.height ? tile.uvs.height : std::max(tile.sampled_rows - 1, 0);
-    for (; tile.interpolated_rows < end; ++tile.interpolated_rows)
-        for (std::size_t x = 0; x < width; ++x) {
-            const std::size_t texel = static_cast<std::size_t>(tile.interpolated_rows) * width + x;
-            if (!tile.wanted[texel])
-                continue;
-            const TexelsAround around = texels_around(tile, texel);
-            if (around.count == 0)
-                continue;
-            float sum = 0.0f, least = 1.0f, most = 0.0f;
-            for (std::size_t k = 0; k < around.count; ++k) {
-                const float value = values[around.texels[k]];
-                sum += value;
-                least = std::min(least, value);
-                most = std::max(most, value);
-            }
-            if (most - least > tolerance) {
-                others.push_back(static_cast<std::uint32_t>(texel));
-                continue;
-            }
-            values[texel] = sum / static_cast<float>(around.count);
-            tile.counts[texel] = 1;
-            ++count;
-        }
+    int ready = tile.sampled_rows; // rows whose neighbours have values
+    for (int distance = tile.stride / 2; distance > 0 && others.empty(); distance /= 2) {
+        int& row = tile.interpolated_rows[static_cast<std::size_t>(distance - 1)];
+        const int end = ready == tile.uvs.height ? ready : std::max(ready - distance, 0);
+        for (; row < end; row += distance)
+            interpolate_row(tile, static_cast<std::size_t>(row), static_cast<std::size_t>(distance), tolerance, count,
+                            others);
+        ready = std::min(row, end);
+    }
     return others;
 }
 

@@ -21,23 +21,29 @@ struct OpenTile {
     MapTile map;
     std::vector<std::uint16_t> counts{}; ///< samples per texel
     std::vector<std::uint8_t> wanted{};  ///< 1 for texels of a face
-    bool is_sparse = false;              ///< texels between samples are interpolated, see texels_around()
+    int stride = 1;                      ///< of the samples; texels between them are interpolated, see texels_around()
     int sampled_rows = 0;                ///< rows from the top whose samples have been taken
-    int interpolated_rows = 0;           ///< rows whose texels between samples have been interpolated
+    std::array<int, 2> interpolated_rows{}; ///< at the distances 1 and 2
 };
 
-/// The texels from which one is interpolated.
+/// The stride for a map of this RMSE: larger where texels are dense, on the surface and among all.
+int stride_of_samples(std::size_t covered_texels, std::size_t triangles, float error);
+
+/// The distances to the texels from which one is interpolated, along the row and the column: two texels if one of them
+/// is 0, otherwise four. Both are 0 if the texel is not interpolated.
 struct TexelsAround {
-    std::array<std::size_t, 4> texels;
-    std::size_t count = 0; ///< 0 if it is not interpolated
+    std::size_t across = 0, down = 0;
+
+    bool any() const { return across > 0 || down > 0; }
 };
 
-/// A texel in an odd row or column is interpolated from its two or four neighbours in even ones, if they are in its
-/// chart.
-TexelsAround texels_around(const OpenTile& tile, std::size_t texel);
+/// A texel whose column or row is an odd multiple of a power of two below the stride is interpolated from its neighbours
+/// at this distance, if they are in its chart.
+TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y);
 
-/// Interpolates texels whose neighbours differ by at most `tolerance`, in the rows whose neighbours have values, and
-/// adds their number to `count`. \return the other texels between samples
+/// Interpolates texels in the rows whose neighbours have values, from large distances to small, and adds their number to
+/// `count`. \return the texels at one distance whose neighbours differ by more than `tolerance`. They need values before
+/// the next call, which continues; none if all texels have values
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count);
 
 struct TexelCounts {
@@ -48,18 +54,17 @@ struct TexelCounts {
 /// Turns sums into means, and fills the margin and texels that were missed.
 TexelCounts finish(OpenTile& tile, const MapOptions& options, bool has_tangents);
 
-/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Also passes
-/// the number of rows from the top that are complete.
+/// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Passes the
+/// column, the row, and the number of rows from the top that are complete.
 template <class Visit>
 void each_texel_in_blocks(const UvTile& tile, const Visit& visit) {
-    constexpr int side = 64;
-    for (int top = 0; top < tile.height; top += side)
-        for (int left = 0; left < tile.width; left += side)
-            for (int y = top; y < std::min(top + side, tile.height); ++y)
-                for (int x = left; x < std::min(left + side, tile.width); ++x)
-                    visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
-                              static_cast<std::size_t>(x),
-                          top);
+    constexpr std::size_t side = 64;
+    const auto width = static_cast<std::size_t>(tile.width), height = static_cast<std::size_t>(tile.height);
+    for (std::size_t top = 0; top < height; top += side)
+        for (std::size_t left = 0; left < width; left += side)
+            for (std::size_t y = top; y < std::min(top + side, height); ++y)
+                for (std::size_t x = left; x < std::min(left + side, width); ++x)
+                    visit(x, y, static_cast<int>(top));
 }
 
 }
