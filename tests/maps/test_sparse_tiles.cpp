@@ -1,5 +1,6 @@
-/// Maps with so many texels that only every fourth is baked, and the charts within which the others are interpolated.
+/// Maps of so many texels that most are interpolated between others, and the charts that they are interpolated in.
 #include "alcove/maps/detail/charts.h"
+#include "alcove/maps/detail/open_tile.h"
 #include "alcove/maps/maps.h"
 
 #include "shapes.h"
@@ -37,6 +38,16 @@ TEST(Charts, AreJoinedByEdgesWithTheSameUvsAndNormals) {
     const Vec3 up(0, 0, 1), side(1, 0, 0);
     const std::vector<std::array<Vec3, 3>> normals{{up, up, up}, {up, up, up}, {up, up, up}, {side, side, side}};
     EXPECT_EQ(charts_of(vertices, uvs, normals), (std::vector<std::uint32_t>{0, 0, 2, 3}));
+}
+
+TEST(SparseTiles, StridesGrowWithTexelsPerTriangleAndWithTheError) {
+    EXPECT_EQ(stride_of_samples(250'000, 100, 0.05f), 1);
+    EXPECT_EQ(stride_of_samples(300'000, 100, 0.05f), 2);
+    EXPECT_EQ(stride_of_samples(3'000'000, 100, 0.05f), 4);
+    EXPECT_EQ(stride_of_samples(300'000'000, 100, 0.05f), 4);
+    EXPECT_EQ(stride_of_samples(1'300'000, 50'000, 0.05f), 4);
+    EXPECT_EQ(stride_of_samples(1'300'000, 50'000, 0.02f), 2);
+    EXPECT_EQ(stride_of_samples(1'300'000, 500'000, 0.02f), 1);
 }
 
 TEST(SparseTiles, ARoomHasTheClosedFormOfItsWalls) {
