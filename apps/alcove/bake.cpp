@@ -141,10 +141,11 @@ void add_grids(CLI::App& app, BakeVerb& verb) {
 
 void add_occluders(CLI::App& app, BakeVerb& verb) {
     FaceSelection& faces = verb.bake.faces;
-    app.add_option("--only", faces.only,
-                   "Bake only parts with this name; all others still occlude. NAME is that of a node, mesh or "
-                   "material (glTF), or of a group, object or material (OBJ); * and ? are wildcards. Repeat the option "
-                   "for more")
+    app.add_option(
+           "--only", faces.only,
+           "Bake only parts with this name; all others still occlude. NAME can be the name of a node, mesh "
+           "or material (glTF), or of a group, object or material (OBJ); * and ? are wildcards. Repeat the option "
+           "for more")
         ->option_text("NAME");
     app.add_option("--exclude", faces.exclude, "Neither bake parts with this name, nor let them occlude")
         ->option_text("NAME");
@@ -165,9 +166,9 @@ void add_colors(CLI::App& app, BakeVerb& verb) {
     add_choice<ColorUse>(
         app, "--color", verb.add.color,
         {{"ao", ColorUse::ao}, {"multiply", ColorUse::multiply}, {"none", ColorUse::none}},
-        "ao: also write ao as vertex colours and `quality`; multiply: multiply the vertex colours of the input by ao; "
-        "none: do neither. Default: ao, unless the input has "
-        "vertex colours or its own `quality`")
+        "ao: also write ao as vertex colours and as the attribute `quality`; multiply: multiply the vertex colours of "
+        "the input by ao; "
+        "none: do neither. Default: ao, unless the input has vertex colours or an attribute `quality` of its own")
         ->type_name("WHAT");
     add_choice<ColorEncoding>(app, "--color-encoding", verb.add.encoding,
                               {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}},
@@ -195,7 +196,7 @@ constexpr const char* examples = "Examples:\n"
 
 void add_bake(CLI::App& program) {
     auto* app = program.add_subcommand(
-        "bake", "Compute ambient occlusion and masks at the vertices of meshes, or as texture maps");
+        "bake", "Bake ambient occlusion and masks into the vertices of meshes or into texture maps");
     auto verb = std::make_shared<BakeVerb>();
     add_files(*app, *verb);
     add_planning(*app, *verb);

@@ -156,7 +156,7 @@ void run(const Options& options) {
 
 void add_info(CLI::App& program) {
     auto* verb =
-        program.add_subcommand("info", "Describe the contents of a mesh, grid or image; meshes are also diagnosed");
+        program.add_subcommand("info", "Describe the contents of a mesh, grid or image, and the defects of a mesh");
     auto options = std::make_shared<Options>();
     verb->add_option("file", options->input, "Mesh (ply, obj, off, stl, glb, gltf), grid (vdb) or image (exr, png)")
         ->required();

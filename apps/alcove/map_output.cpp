@@ -94,14 +94,14 @@ bool is_map(const std::string& output) {
 
 void add_map_options(CLI::App& verb, MapRequest& request) {
     add_choice<bool>(verb, "--into", request.into_texture, {{"vertices", false}, {"texture", true}},
-                     "Where to store the values in a glb or gltf: at its vertices, or in an occlusion texture for each "
-                     "material, on a set of UVs without overlaps")
+                     "Where to store the values in a glb or gltf. vertices: at its vertices; texture: in one occlusion "
+                     "texture per material, on a UV set of the file without overlaps")
         ->type_name("WHERE")
         ->default_str("vertices");
     verb.add_flag(
         "--pack-orm", request.pack_orm,
-        "With --into texture: store ao in the red channel of the metallic-roughness texture of each material, "
-        "at its size unless --size is given");
+        "With --into texture: store ao in the red channel of each material's metallic-roughness texture, keeping the "
+        "size of that texture unless --size is given");
     verb.add_option_function<std::string>(
             "--size",
             [&request](const std::string& text) {
@@ -138,7 +138,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
         ->type_name("DEPTH");
     add_choice<MapSpace>(
         verb, "--space", request.map.space, {{"tangent", MapSpace::tangent}, {"object", MapSpace::object}},
-        "Coordinate space of the directions in a map: tangent (MikkTSpace) or object (that of the mesh)")
+        "Coordinate space of the directions in a map: tangent (MikkTSpace) or object (the coordinates of the mesh)")
         ->type_name("SPACE")
         ->default_str("tangent");
     verb.add_flag("--flip-green", request.map.flip_green, "Negate the green channel of directions, as DirectX expects");

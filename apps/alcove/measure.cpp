@@ -166,7 +166,7 @@ void add_measure(CLI::App& program) {
     verb->footer(
         "The reference is 1,024 exact rays per vertex, at up to 20,000 vertices; each method bakes all vertices.\n"
         "Times are the CPU seconds that the process uses for one bake. A grid is built once per radius and voxel\n"
-        "size, and its time is added to each method that uses it.\n\n"
+        "size, and its build time is included in the time of each method that uses it.\n\n"
         "Examples:\n"
         "  alcove measure scan.ply --report scan.html\n"
         "  alcove measure scan.ply part.stl --methods guided:3,exact:16,classic --json results.json\n"

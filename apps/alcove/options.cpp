@@ -132,7 +132,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
     verb.add_option_function<double>(
             "--time-limit", [](const double& seconds) { limit_time(seconds); },
             "Stop after this many seconds with exit code 1 and leave files unchanged; a bake or image that would "
-            "clearly take longer is refused, and the message names settings that fit")
+            "clearly take longer is refused, and the message names settings that stay within it")
         ->check(parsable([](const std::string& text) {
             char* end = nullptr;
             const double seconds = std::strtod(text.c_str(), &end);

@@ -242,9 +242,10 @@ void add_render(CLI::App& program) {
     auto options = std::make_shared<Options>();
     add_scene_options(*verb, options->scene);
     add_image_options(*verb, options->image);
-    verb->add_option("--frames", options->frames,
-                     "Turntable: N images around the object, numbered before the extension; existing images are not "
-                     "rendered again")
+    verb->add_option(
+            "--frames", options->frames,
+            "Turntable: N images around the object, with the frame number inserted before the extension; existing "
+            "images are not rendered again")
         ->type_name("N")
         ->check(CLI::Range(1, 100000));
     add_common_options(*verb, options->common);

@@ -96,8 +96,9 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
         "Quality of the default method (guided): draft, good or fine. Sets the number of rays");
     quality->type_name("NAME")->default_str("good");
-    add_method_options(verb, request.method,
-                       "march_steps or screen_space, which work on images only; none; or one of the estimators: ");
+    add_method_options(
+        verb, request.method,
+        "Method to use: none (no ao), march_steps or screen_space (only in images), or one of the estimators: ");
     verb.get_option("--method")->excludes(quality);
     verb.get_option("--rays")->description(
         "Rays per pixel sample, for methods that trace rays (default for traced and exact: 16)");

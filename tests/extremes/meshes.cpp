@@ -11,7 +11,7 @@ namespace {
 
 using Corner = glm::dvec2; // x to the right, z up
 
-/// Sweeps the outline along y, and cuts its sides into quads of at most that size. The outline is counterclockwise,
+/// Sweeps the outline along y, and cuts its sides into quads of at most `size`. The outline is counterclockwise,
 /// seen from −y.
 Mesh prism(const std::vector<Corner>& outline, double length, int along, double size) {
     std::vector<Corner> points;

@@ -1,4 +1,4 @@
-/// Reads PNG files without the library, and without converting their values.
+/// Reads PNG files without Alcove's reader, and without converting their values.
 #pragma once
 
 #include <png.h>

@@ -21,7 +21,7 @@ struct ReferenceScene {
         return std::fmin(p.y, std::fmin(sphere, torus));
     }
 
-    /// Points on the surface near the objects, with the normals of the reference: central differences of 0.001.
+    /// Points on the surface near the objects, with normals by central differences of step 0.001.
     std::vector<Surfel> surfels(std::size_t count) const {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> across(-2.5, 2.5), up(0.0, 2.2);

@@ -1,4 +1,4 @@
-/// Sheets stop rays in any alignment with the grid: on its planes, between them, across them.
+/// Sheets stop rays however they are aligned with the grid: on its planes, between them, across them.
 #include "alcove/occlusion/estimator.h"
 #include "alcove/occlusion/methods/traced.h"
 #include "voxelized.h"

@@ -90,7 +90,7 @@ TEST_F(BallFile, PlacesAreMovedOntoTheTriangles) {
         if (drawn.image.alpha[i] < 1.0f)
             continue;
         ++seen;
-        // The point at the stored depth on the ray of the pixel.
+        // The point on the pixel's ray at the stored depth.
         const Vec3d ray =
             drawn.camera.direction(static_cast<double>(i % 120) + 0.5, static_cast<double>(i / 120) + 0.5);
         const Vec3d p =

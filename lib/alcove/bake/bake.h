@@ -176,7 +176,7 @@ struct SurfacePoint {
 };
 
 /// Bakes points on or near a mesh, as above. `normals`, `weld` and `self` have no effect. A point without a normal or
-/// with a non-finite position gets ChannelInfo::missing (ao = 1). \throw as above, and InputError for a face index that
+/// with a non-finite position gets ChannelInfo::missing (ao = 1). \throw like above, and InputError for a face index that
 /// is out of range.
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
 
@@ -202,9 +202,9 @@ struct AddOptions {
     ColorEncoding encoding = ColorEncoding::srgb;
 };
 
-/// Adds the values that were baked at the vertices of `mesh` as attributes with the names of the channels, and a
-/// comment with the method and its settings. Ao is also added as colours and `quality` (see ColorUse). Adds a warning
-/// to `mesh` if it keeps colours of its own. \return whether colours were added.
+/// Adds the baked values to `mesh` as vertex attributes named after their channels, and a comment with the method and
+/// its settings. The channel `ao` is also added as colours and as `quality` (see ColorUse). Adds a warning to `mesh` if
+/// it keeps colours of its own. \return whether colours were added.
 /// \throw InputError if the numbers of values and vertices do not match. Cost: linear.
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options = {});
 

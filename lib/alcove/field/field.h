@@ -72,7 +72,7 @@ float extent(const F& field) {
         return std::numeric_limits<float>::infinity();
 }
 
-/// Whether both sides of the surface count as outside and only a thin layer behind it is negative (Sign::sheet).
+/// Whether both sides of the surface count as outside, with negative values only in a thin layer along it (Sign::sheet).
 template <Field F>
 bool two_sided(const F& field) {
     if constexpr (requires {

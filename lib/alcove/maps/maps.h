@@ -118,7 +118,7 @@ struct BakedMaps {
 /// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of at least a million
 /// texels and 16 per triangle, baked for ao alone with an error of at least 0.01 and without high meshes or subsamples,
 /// texels get the mean of their neighbours where these differ by less than the error. Thread-safety as bake().
-/// \throw as bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
+/// \throw like bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});
 
@@ -150,14 +150,14 @@ struct OcclusionTextures {
 /// With packing, the UVs are those of the metallic-roughness texture if they are without overlaps. Otherwise, and where
 /// there is no such texture, the material gets a texture of its own; Baked::warnings says so.
 /// TexturePacking::size_of_image bakes at the size of the largest of these images.
-/// \throw as bake_maps(), InputError naming the meshes that have no set of UVs without overlaps, or an image that is
+/// \throw like bake_maps(), InputError naming the meshes that have no set of UVs without overlaps, or an image that is
 /// damaged, missing, or neither PNG nor JPEG, and LimitError if an image does not fit in memory.
 OcclusionTextures bake_occlusion_textures(const Mesh& mesh, const BakeOptions& bake = {},
                                           const MapOptions& options = {},
                                           TexturePacking packing = TexturePacking::none);
 
-/// Writes a glTF file with the textures added as the occlusionTexture of the materials. \return messages, as
-/// write_mesh(). \throw as write_mesh(); InputError for an extension other than .glb and .gltf.
+/// Writes a glTF file with the textures added as the occlusionTexture of the materials. \return messages like
+/// write_mesh(). \throw like write_mesh(); InputError for an extension other than .glb and .gltf.
 std::vector<std::string> write_occlusion_textures(const Mesh& mesh, const OcclusionTextures& textures,
                                                   const std::filesystem::path& file);
 
@@ -184,11 +184,11 @@ void check(const MapFileOptions& options, const std::filesystem::path& file);
 /// ao and convexity unchanged, thickness as a share of BakedMaps::thickest, heights as 0.5 + 0.5 h/reach, positions as
 /// shares of BakedMaps::box, object numbers as they are, and directions as 0.5 + 0.5 v, all without an sRGB tag. Each
 /// file is written completely or not at all.
-/// \return the files. \throw as check(); IoError if a file cannot be written.
+/// \return the files. \throw like check(); IoError if a file cannot be written.
 std::vector<std::filesystem::path> write_maps(const BakedMaps& maps, const std::filesystem::path& file,
                                               const MapFileOptions& options = {});
 
-/// Writes a .png per tile that is white where BakedMaps::misses are. \return the files. \throw as write_maps()
+/// Writes a .png per tile that is white where BakedMaps::misses are. \return the files. \throw like write_maps()
 std::vector<std::filesystem::path> write_miss_mask(const BakedMaps& maps, const std::filesystem::path& file);
 
 }

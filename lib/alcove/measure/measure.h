@@ -64,7 +64,7 @@ struct MeasuredGrid {
 };
 
 /// Builds the grid as a bake does, with clustered vertices on dense surfaces. Radius and voxel in unit space; if
-/// `voxel` is 0, its size is chosen automatically. \throw as voxelize().
+/// `voxel` is 0, its size is chosen automatically. \throw like voxelize().
 MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, const Progress& progress = {});
 
 struct Measurement {

@@ -54,7 +54,8 @@ struct Mesh {
     std::vector<std::string> warnings;        ///< messages about data that could not be read, with counts
     std::vector<Color> added_colors;          ///< empty, or one per vertex: these replace those of the file
     ColorEncoding added_encoding = ColorEncoding::srgb; ///< of added_colors
-    /// Empty, or 1 for each vertex that has added values. Nodes of a glTF scene without such vertices are not changed.
+    /// Empty, or one flag per vertex: 1 if it gets added values. Nodes of a glTF scene that have no such vertex are left
+    /// unchanged.
     std::vector<std::uint8_t> baked_vertices;
     /// Instances of one mesh in a glTF scene share added values whose RMSE does not exceed this.
     double instance_error = 0.0;

@@ -62,7 +62,7 @@ struct GridSelection {
 /// grids do not fit.
 GridStack read_grids(const std::filesystem::path& file, const GridSelection& selection = {});
 
-/// The lattice of the voxels of the finest level set. \throw as read_grids(), and InputError if its voxels are not
+/// The lattice of the voxels of the finest level set. \throw like read_grids(), and InputError if its voxels are not
 /// cubes along the axes.
 Lattice read_lattice(const std::filesystem::path& file);
 

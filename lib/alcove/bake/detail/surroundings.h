@@ -30,7 +30,7 @@ class Surroundings {
     /// Builds the grids of the occluders. `voxel` (scene units; 0: chosen automatically) is the largest allowed voxel,
     /// clamped to between 1/512 and 1/32 of each occluder's diagonal; memory may require a larger one. Appends to the
     /// warnings.
-    /// \throw as alcove::voxelize().
+    /// \throw like alcove::voxelize().
     void voxelize(double voxel, std::vector<std::string>& warnings);
     /// Whether these grids fit in memory.
     bool fit() const;

@@ -28,7 +28,7 @@ OccluderNeeds needs_of(const Method& method, ChannelSet wanted, bool has_contact
 
 /// Refuses a bake that would clearly miss the deadline. Estimates its time from a trial of 128 surfels spread over the
 /// mesh and doubles their number as long as the outcome is uncertain. All trials together bake at most a quarter of the
-/// surfels; fewer than about a thousand surfels are not checked.
+/// surfels; a bake of fewer than about a thousand surfels is not checked.
 void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
                 const Occluders& occluders, const MethodChoice& choice, Settings settings, ChannelSet wanted) {
     constexpr std::size_t max_batches = 64, min_stride = 8;

@@ -55,7 +55,7 @@ struct TargetResult {
 };
 
 /// Bakes with the method of the task or with the cheapest plan. If the pilot measures an RMSE above the one to meet,
-/// plans and bakes again. Also finds the contacts of the surfels. \throw as bake()
+/// plans and bakes again. Also finds the contacts of the surfels. \throw like bake()
 TargetResult bake_target(BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
                          const BakeProgress& progress);
 

@@ -11,8 +11,8 @@
 
 namespace alcove {
 
-/// The number of the chart of each triangle. Triangles are in one chart if they share an edge, with the same UVs and
-/// nearly the same normals at its ends. Cost: about 0.2 µs per triangle.
+/// For each triangle, the number of its chart. Two triangles are in the same chart if they share an edge at whose ends
+/// they have the same UVs and nearly the same normals. Cost: about 0.2 µs per triangle.
 std::vector<std::uint32_t> charts_of(std::span<const Triangle> vertices, std::span<const UvTriangle> uvs,
                                      std::span<const std::array<Vec3, 3>> normals);
 

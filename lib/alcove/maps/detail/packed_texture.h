@@ -10,14 +10,14 @@
 
 namespace alcove {
 
-/// The size of an image, without decoding it. \throw as decode_image()
+/// The size of an image, without decoding it. \throw like decode_image()
 MapSize size_of(const GltfImage& image);
 
 /// \throw LimitError if packing into an image at size `to` takes more memory than the limit.
 void check_packing(const GltfImage& image, MapSize to);
 
 /// A PNG of size `to` whose red channel is the ao of a map, and whose other channels are those of the image.
-/// \throw as decode_image()
+/// \throw like decode_image()
 std::string pack_occlusion(std::span<const float> ao, MapSize map, const GltfImage& image, MapSize to,
                            std::span<const PngText> texts);
 

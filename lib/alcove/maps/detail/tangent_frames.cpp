@@ -39,7 +39,7 @@ struct Gradient {
     }
 };
 
-/// Gives equal values equal numbers.
+/// Numbers the corners. Corners with the same position, normal and UV get the same number.
 std::vector<std::uint32_t> vertices_of(std::span<const Corners> triangles) {
     std::vector<std::uint32_t> order(3 * triangles.size()), vertices(order.size());
     std::iota(order.begin(), order.end(), 0u);

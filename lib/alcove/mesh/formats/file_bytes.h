@@ -11,7 +11,7 @@ namespace alcove {
 
 class FileBytes {
   public:
-    /// Reads a whole regular file or pipe. \throw as InputFile; InputError if it is empty.
+    /// Reads a whole regular file or pipe. \throw like InputFile; InputError if it is empty.
     explicit FileBytes(const std::filesystem::path& file);
     /// Uses `bytes` as if they had been read from `file`.
     FileBytes(const std::filesystem::path& file, std::string_view bytes);

@@ -10,7 +10,7 @@ namespace alcove {
 /// The text after the byte-order marks that some editors put before UTF-8, one each time they save it.
 std::string_view without_byte_order_mark(std::string_view text);
 
-/// The text before the NUL and Ctrl-Z bytes that block devices and DOS programs put after it.
+/// The text without the NUL and Ctrl-Z bytes that block devices and DOS programs append.
 std::string_view without_padding(std::string_view text);
 
 /// \throw InputError if the file is text in UTF-16 or UTF-32: no supported format uses them.

@@ -63,7 +63,7 @@ class OctantSearch {
         last.pending &= ~(1u << i);
     }
 
-    /// Measures all other triangles that may be nearer to a voxel than the best so far.
+    /// Measures the distances to all other triangles that may be nearer to a voxel than the best so far.
     void update_with_others(const TriangleTree& tree, NearestOfEight& best) {
         best.update(tree, others(best), voxels_);
     }

@@ -135,7 +135,8 @@ int edge_at(const Reader& reader, const Coord& at) {
     return edges[static_cast<std::size_t>(std::max(reader.getValueDepth(at), 0))];
 }
 
-/// Whether a square of one layer of voxels, at a multiple of its edge, has a value of the other sign.
+/// Whether any value in a square of size × size voxels, one voxel thick along `axis`, has the sign that `inside`
+/// excludes. The coordinates of `low` are multiples of the size.
 bool changes_sign(const Reader& reader, const Coord& low, int axis, int size, bool inside) {
     const int part = edge_at(reader, low);
     if (part >= size)

@@ -31,7 +31,7 @@ struct DracoMesh {
     };
     std::map<std::string, Values> attributes; ///< by name: "POSITION"
 };
-/// `draco`: the extension object of a primitive. \throw as decompress()
+/// `draco`: the extension object of a primitive. \throw like decompress()
 DracoMesh decode_draco(GltfFile& file, const GltfValue& draco);
 
 }

@@ -33,7 +33,7 @@ class GltfFile {
     std::string_view buffer(const GltfValue& buffer);
     /// The bytes of an element of `bufferViews`, decompressed at the first use.
     std::string_view view(const GltfValue& view);
-    /// The bytes of an element of `images`. \throw as buffer()
+    /// The bytes of an element of `images`. \throw like buffer()
     std::string_view image(const GltfValue& image);
 
   private:

@@ -21,7 +21,7 @@ class GltfOutput {
     /// An empty file.
     explicit GltfOutput(const std::filesystem::path& target);
     /// A copy of a file. In a .glb, its first buffer becomes the binary chunk if it is the only one. In another folder,
-    /// buffers that are files become part of the output. `file` must outlive this. \throw as GltfFile::buffer().
+    /// buffers that are files become part of the output. `file` must outlive this. \throw like GltfFile::buffer().
     GltfOutput(const std::filesystem::path& target, GltfFile& file);
 
     Json& json() { return json_; }

@@ -65,7 +65,7 @@ class NameMover {
         }
     }
 
-    /// Whether it is the name of a file.
+    /// Rewrites a name so that it can be found from the output folder. \return false if it does not name a file.
     bool move_name(std::string_view quoted) {
         const std::string_view name = without_quotes(quoted);
         if (is_absolute(name))
