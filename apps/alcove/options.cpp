@@ -132,7 +132,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
     verb.add_option_function<double>(
             "--time-limit", [](const double& seconds) { limit_time(seconds); },
             "Stop after this many seconds with exit code 1 and leave files unchanged; a bake or image that would "
-            "clearly take longer is refused, and the message names settings that stay within it")
+            "clearly take longer is refused, and the message names settings that stay within the limit")
         ->check(parsable([](const std::string& text) {
             char* end = nullptr;
             const double seconds = std::strtod(text.c_str(), &end);
@@ -169,7 +169,7 @@ void add_grid_options(CLI::App& verb, std::optional<Length>& voxel, SignChoice& 
         verb, "--sign", sign,
         {{"auto", SignChoice::automatic}, {"solid", SignChoice::solid}, {"sheet", SignChoice::sheet}},
         "Sign of the distances. solid: negative inside, for closed meshes; sheet: both sides of the faces count as "
-        "outside; auto: chosen from the mesh")
+        "outside; auto: chosen to suit the mesh")
         ->type_name("SIGN")
         ->default_str("auto");
 }

@@ -123,7 +123,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         "Colours. own: the vertex or face colours of the mesh, or the material colours of an obj; none: grey")
         ->type_name("NAME")
         ->default_str("own");
-    verb.add_option("--texture", request.texture, "Texture map (png, exr) that colours the mesh by its UVs")
+    verb.add_option("--texture", request.texture, "Texture map (png, exr) to apply to the mesh through its UVs")
         ->type_name("FILE");
 }
 
