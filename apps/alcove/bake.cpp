@@ -107,8 +107,8 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
          {"angle", NormalSource::angle},
          {"area", NormalSource::area}},
         "file: the file's normals; angle, area: means of the face normals, weighted by the angle of each face at the "
-        "vertex, or by its area; auto: the file's normals if it has any, else angle (with hard edges above 40 degrees "
-        "in a map)")
+        "vertex, or by its area; auto: the file's normals if it has any, else angle (in texture maps, "
+        "edges sharper than 40 degrees stay hard)")
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);
