@@ -5,6 +5,7 @@
 #include "alcove/base/types.h"
 #include "mesh/scratch_files.h"
 
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -98,6 +99,40 @@ TEST_F(Files, AFileThatOutgrowsTheLimitIsRefusedWhileItIsRead) {
     std::array<char, 10> bytes{};
     EXPECT_EQ(file.read(bytes.data(), bytes.size()), 10u);
     EXPECT_THROW(file.read(bytes.data(), 1), LimitError);
+}
+
+TEST_F(Files, AFileThatChangedIsNotReadAtAPlace) {
+    write("file", "0123456789");
+    const InputFile file(path("file"));
+    std::array<char, 4> bytes{};
+    file.read_at(3, bytes.data(), bytes.size());
+    EXPECT_EQ(std::string_view(bytes.data(), bytes.size()), "3456");
+    write("other", "new");
+    std::filesystem::rename(path("other"), path("file")); // the old file is still open
+    EXPECT_NO_THROW(file.read_at(0, bytes.data(), bytes.size()));
+    const InputFile shrinking(path("file"));
+    write("file", "ne");
+    expect(message_of<InputError>([&] { shrinking.read_at(0, bytes.data(), 1); }),
+           "file: was changed while it was being processed; run again");
+}
+
+/// Also from a file in memory, whose file system the system does not copy from by itself.
+TEST_F(Files, PartsOfFilesAreCopied) {
+    std::string bytes(3'000'000, ' ');
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        bytes[i] = static_cast<char>(i * i / 1000);
+    const int in_memory = ::memfd_create("from", 0);
+    ASSERT_EQ(::write(in_memory, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    for (const std::filesystem::path& from :
+         {write("from", bytes), std::filesystem::path("/proc/self/fd") / std::to_string(in_memory)}) {
+        AtomicFile to(path("to"));
+        to.write("head");
+        to.copy(InputFile(from), 12'345, 2'900'000);
+        to.write("tail");
+        to.commit();
+        EXPECT_TRUE(bytes_of("to") == "head" + bytes.substr(12'345, 2'900'000) + "tail");
+    }
+    ::close(in_memory);
 }
 
 TEST_F(Files, OutputsOfOtherKindsAreRefusedAndStay) {

@@ -42,6 +42,8 @@ int remember(const std::string& path) {
     return -1;
 }
 
+constexpr std::size_t block_size = std::size_t{1} << 20; // of output
+
 void forget(int slot) {
     if (slot >= 0)
         unfinished[static_cast<std::size_t>(slot)].state = 0;
@@ -130,12 +132,45 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::write(std::string_view bytes) {
     while (!bytes.empty()) {
         check_cancelled();
-        const ssize_t put = ::write(descriptor_, bytes.data(), std::min<std::size_t>(bytes.size(), 1u << 26));
+        const ssize_t put = ::write(descriptor_, bytes.data(), std::min(bytes.size(), block_size));
         if (put < 0 && errno != EINTR)
             fail(target_, "cannot be written");
-        if (put > 0)
+        if (put > 0) {
             bytes.remove_prefix(static_cast<std::size_t>(put));
+            count_written(static_cast<std::size_t>(put));
+        }
     }
+}
+
+void AtomicFile::copy(const InputFile& from, std::size_t offset, std::size_t count) {
+    std::string buffer;
+    while (count > 0) {
+        check_cancelled();
+        const std::size_t block = std::min(count, block_size);
+        std::size_t copied = from.copy_to(descriptor_, offset, block);
+        count_written(copied);
+        if (copied == 0) { // the file systems cannot, or one of them fails: reading and writing tells which
+            buffer.resize(block);
+            from.read_at(offset, buffer.data(), block);
+            write(buffer);
+            copied = block;
+        }
+        offset += copied;
+        count -= copied;
+    }
+    from.check_unchanged();
+}
+
+/// Lets the disk begin with each block, so that commit() need not wait for all of them.
+void AtomicFile::count_written(std::size_t count) {
+    written_ += count;
+#ifdef __linux__
+    if (written_ - started_ >= block_size) {
+        ::sync_file_range(descriptor_, static_cast<off_t>(started_), static_cast<off_t>(written_ - started_),
+                          SYNC_FILE_RANGE_WRITE);
+        started_ = written_;
+    }
+#endif
 }
 
 void AtomicFile::commit() {

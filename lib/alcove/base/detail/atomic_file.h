@@ -1,6 +1,9 @@
 /// A file that is written completely or not at all.
 #pragma once
 
+#include "alcove/base/detail/input_file.h"
+
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 
@@ -21,14 +24,19 @@ class AtomicFile {
     const std::filesystem::path& temporary() const { return temporary_; }
 
     void write(std::string_view bytes); ///< unbuffered: pass large blocks
+    /// Writes `count` bytes of a regular file from `offset` on. \throw like InputFile::read_at()
+    void copy(const InputFile& from, std::size_t offset, std::size_t count);
     /// Returns when the file is on the disk under its name, as far as the file system can tell.
     void commit();
 
   private:
+    void count_written(std::size_t count);
+
     std::filesystem::path target_;
     std::filesystem::path temporary_;
     int descriptor_ = -1;
-    int slot_ = -1; ///< index into the list of unfinished files
+    std::size_t written_ = 0, started_ = 0; ///< bytes, and those that the disk has begun with
+    int slot_ = -1;                         ///< index into the list of unfinished files
 };
 
 /// Removes the temporary files of all uncommitted files; for use when the process is about to end. Safe in a signal

@@ -1,7 +1,8 @@
-/// A file or pipe that is read from beginning to end, at most read_limit() bytes of it.
+/// A file or pipe that is open for reading, at most read_limit() bytes of it.
 #pragma once
 
 #include <cstddef>
+#include <ctime>
 #include <filesystem>
 
 namespace alcove {
@@ -14,9 +15,16 @@ class InputFile {
 
     /// The size that the system reports: 0 for a pipe, and files may grow.
     std::size_t size() const { return size_; }
-    /// Reads up to `count` bytes, > 0. \return how many; 0 at the end. \throw InputError if the system cannot read the
-    /// file, LimitError beyond the limit.
+    /// Reads up to `count` bytes, > 0, after those of the last call. \return how many; 0 at the end. \throw InputError
+    /// if the system cannot read the file, LimitError beyond the limit.
     std::size_t read(char* to, std::size_t count);
+
+    // Of a regular file, at any place and on any thread. \throw InputError as well if the file has changed since it was
+    // opened: bytes of two versions do not fit each other. A file that was replaced by another one has not changed.
+    void read_at(std::size_t offset, char* to, std::size_t count) const;
+    /// Lets the system copy up to `count` bytes to the end of an output, if it can. \return how many.
+    std::size_t copy_to(int output, std::size_t offset, std::size_t count) const;
+    void check_unchanged() const;
 
   private:
     struct Descriptor {
@@ -30,6 +38,7 @@ class InputFile {
     std::filesystem::path path_;
     Descriptor descriptor_;
     std::size_t size_ = 0;
+    std::timespec modified_{};
     std::size_t done_ = 0; ///< bytes read
 };
 
