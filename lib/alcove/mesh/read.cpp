@@ -56,15 +56,39 @@ std::string points_without_faces(std::size_t count) {
                : "contains " + counted(count, "point", "points") + " but no faces; points can be read from a PLY file";
 }
 
-void warn_of_invalid_geometry(Mesh& mesh) {
+/// Whether all coordinates are finite and far from the largest double.
+bool are_moderate(const std::vector<Vec3d>& positions) {
+    std::size_t others = 0; // in a loop without exits, which is fast
+    for (const Vec3d& p : positions)
+        others += !(std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) < 1e300);
+    return others == 0;
+}
+
+bool has_first_edge(const Mesh& mesh) {
+    return mesh.face_count() > 0 && mesh.face(0).size() > 1 &&
+           std::isnormal(glm::distance(mesh.positions[mesh.face(0)[0]], mesh.positions[mesh.face(0)[1]]));
+}
+
+void check_extent(const FileBytes& file, const Mesh& mesh) {
+    const double diagonal = mesh.box().diagonal();
+    if (std::isinf(diagonal))
+        file.fail("has vertices farther apart than numbers can represent; scale it down, or export it again");
+    if (std::fpclassify(diagonal) == FP_SUBNORMAL)
+        file.fail("has vertices closer together than numbers can resolve; scale it up, or export it again");
+}
+
+void warn_of_infinite_vertices(Mesh& mesh) {
     const auto non_finite =
         std::count_if(mesh.positions.begin(), mesh.positions.end(), [](const Vec3d& p) { return !is_finite(p); });
     if (non_finite > 0)
         mesh.warnings.push_back(counted(static_cast<std::size_t>(non_finite), "vertex has", "vertices have") +
                                 " coordinates that are not finite numbers; kept, but faces that use them are ignored");
+}
+
+void warn_of_degenerate_faces(Mesh& mesh) {
     std::size_t degenerate = 0;
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        degenerate += mesh.face(f).size() < 3;
+        degenerate += mesh.face_begin[f + 1] - mesh.face_begin[f] < 3;
     if (degenerate > 0)
         mesh.warnings.push_back(counted(degenerate, "face has", "faces have") +
                                 " fewer than three corners; kept, but ignored");
@@ -82,12 +106,13 @@ Mesh read_bytes(const FileBytes& file) {
     if (mesh.face_count() == 0 && mesh.format != ply.name)
         file.fail(mesh.format == stl.name ? "contains no facets; export it again"
                                           : points_without_faces(mesh.vertex_count()));
-    const double diagonal = mesh.box().diagonal();
-    if (std::isinf(diagonal))
-        file.fail("has vertices farther apart than numbers can represent; scale it down, or export it again");
-    if (std::fpclassify(diagonal) == FP_SUBNORMAL)
-        file.fail("has vertices closer together than numbers can resolve; scale it up, or export it again");
-    warn_of_invalid_geometry(mesh);
+    // Most meshes pass a quick test: their box, which takes longer, is neither too large nor too small.
+    const bool moderate = are_moderate(mesh.positions);
+    if (!moderate || !has_first_edge(mesh))
+        check_extent(file, mesh);
+    if (!moderate)
+        warn_of_infinite_vertices(mesh);
+    warn_of_degenerate_faces(mesh);
     return mesh;
 }
 
