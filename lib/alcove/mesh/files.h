@@ -38,7 +38,8 @@ namespace alcove {
 ///    `face_colors`.
 ///
 /// Thread-safe. Cost: linear, about 0.2 µs per triangle for text and 0.1 µs for binary PLY; the file and the mesh
-/// are in memory at the same time.
+/// are in memory at the same time. The data of a .glb of more than 1 MB stays on the disk, and is read again when the
+/// mesh is written: the file must not be changed until then, but may be replaced.
 ///
 /// \throw InputError with the file, the line or byte and a fix: it cannot be read, unknown format, text in UTF-16,
 ///        damaged header, counts larger than the rest of the file, an index out of range, a token that is not a number,
@@ -81,7 +82,8 @@ bool can_write_mesh(const std::filesystem::path& file);
 ///
 /// \return what the format could not store, which paths changed, and which values attributes replaced, except those
 /// that an earlier run made according to a comment in the file. One message each; empty if there are none.
-/// \throw InputError for another extension, with the ones that work; IoError if the file cannot be written.
+/// \throw InputError for another extension, with the ones that work, or if a large .glb has changed since it was read;
+/// IoError if the file cannot be written.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 
 }

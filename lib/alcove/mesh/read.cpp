@@ -118,7 +118,7 @@ Mesh read_bytes(const FileBytes& file) {
 
 Mesh read_mesh(const std::filesystem::path& path) {
     try {
-        return read_bytes(FileBytes(path));
+        return read_bytes(FileBytes(path, head_of_glb));
     } catch (const std::bad_alloc&) {
         throw MemoryError(path.string() + ": does not fit in memory; simplify or split the mesh");
     }

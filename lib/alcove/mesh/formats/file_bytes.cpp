@@ -6,6 +6,7 @@
 #include "alcove/base/types.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <new>
 #include <utility>
@@ -14,6 +15,7 @@ namespace alcove {
 namespace {
 
 constexpr std::size_t smallest_capacity = std::size_t{1} << 16; // of a pipe
+constexpr std::size_t large_file = std::size_t{1} << 20;
 
 struct Free {
     void operator()(char* bytes) const { std::free(bytes); }
@@ -34,6 +36,29 @@ Buffer grown(Buffer bytes, std::size_t capacity) {
 
 FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
     InputFile input(file);
+    read_all(input);
+}
+
+FileBytes::FileBytes(const std::filesystem::path& file, Head head) : path_(file) {
+    const auto input = std::make_shared<InputFile>(file);
+    std::size_t in_memory = input->size();
+    if (input->size() >= large_file) {
+        std::array<char, 64> first;
+        input->read_at(0, first.data(), first.size());
+        in_memory = head({first.data(), first.size()});
+    }
+    if (in_memory >= input->size()) {
+        read_all(*input);
+        return;
+    }
+    bytes_ = std::shared_ptr<char[]>(new char[in_memory + 1]);
+    input->read_at(0, bytes_.get(), in_memory);
+    bytes_[in_memory] = '\0';
+    size_ = in_memory;
+    on_disk_ = input;
+}
+
+void FileBytes::read_all(InputFile& input) {
     // A read into the spare byte finds the end of the file, or that the file is longer than its size says.
     std::size_t capacity = input.size() + 1;
     Buffer bytes = grown({}, capacity);
@@ -47,13 +72,19 @@ FileBytes::FileBytes(const std::filesystem::path& file) : path_(file) {
     bytes.get()[size_] = '\0';
     bytes_ = std::shared_ptr<char[]>(bytes.release(), std::free);
     if (size_ == 0)
-        fail(file.extension() == ".toml" ? "is empty" : "is empty; export it again");
+        fail(path_.extension() == ".toml" ? "is empty" : "is empty; export it again");
 }
 
 FileBytes::FileBytes(const std::filesystem::path& file, std::string_view bytes)
     : path_(file), bytes_(new char[bytes.size() + 1]), size_(bytes.size()) {
     std::copy(bytes.begin(), bytes.end(), bytes_.get());
     bytes_[size_] = '\0';
+}
+
+FilePart FileBytes::part(std::size_t begin, std::size_t size) const {
+    if (on_disk_ && size > size_ - std::min(begin, size_))
+        return {*on_disk_, begin, size};
+    return FilePart(view().substr(begin, size));
 }
 
 std::size_t FileBytes::line_at(const char* place) const {
@@ -73,7 +104,11 @@ void FileBytes::fail_at_line(const char* place, std::string_view message) const 
 }
 
 void FileBytes::fail_at_byte(const char* place, std::string_view message) const {
-    fail("byte " + grouped(static_cast<std::size_t>(place - begin())) + ": " + std::string(message));
+    fail_at_byte(static_cast<std::size_t>(place - begin()), message);
+}
+
+void FileBytes::fail_at_byte(std::size_t place, std::string_view message) const {
+    fail("byte " + grouped(place) + ": " + std::string(message));
 }
 
 }

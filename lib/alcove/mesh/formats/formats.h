@@ -25,6 +25,10 @@ bool begins_as_off(const FileBytes& file);
 bool begins_as_stl(const FileBytes& file);
 bool begins_as_gltf(const FileBytes& file);
 
+/// Of a .glb, the part that read_gltf() needs in memory, as a FileBytes::Head: up to the end of the JSON. All of any
+/// other file.
+std::size_t head_of_glb(std::string_view first_bytes);
+
 // Each returns the messages of write_mesh() and throws IoError.
 std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file);
 std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file);

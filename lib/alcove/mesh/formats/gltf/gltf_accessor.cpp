@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 #include <limits>
 #include <string_view>
@@ -15,8 +14,6 @@
 
 namespace alcove {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "glTF is read without swapping bytes");
 
 enum ComponentType : std::size_t { int8 = 5120, uint8, int16, uint16, uint32 = 5125, float32 };
 
@@ -62,23 +59,39 @@ void copy(const char* from, std::size_t components, bool normalized, To* to) {
     }
 }
 
+/// Converts elements of `components` values each.
+template <class From, class To>
+void copy_elements(const char* from, std::size_t stride, std::size_t components, bool normalized, std::span<To> to) {
+    if (stride == components * sizeof(From))
+        return copy<From>(from, to.size(), normalized, to.data());
+    for (std::size_t i = 0; i < to.size(); i += components, from += stride)
+        copy<From>(from, components, normalized, to.data() + i);
+}
+
 template <class To>
-void copy_element(const char* from, std::size_t type, std::size_t components, bool normalized, To* to) {
+void copy_elements(std::size_t type, const char* from, std::size_t stride, std::size_t components, bool normalized,
+                   std::span<To> to) {
     switch (type) {
     case int8:
-        return copy<std::int8_t>(from, components, normalized, to);
+        return copy_elements<std::int8_t>(from, stride, components, normalized, to);
     case uint8:
-        return copy<std::uint8_t>(from, components, normalized, to);
+        return copy_elements<std::uint8_t>(from, stride, components, normalized, to);
     case int16:
-        return copy<std::int16_t>(from, components, normalized, to);
+        return copy_elements<std::int16_t>(from, stride, components, normalized, to);
     case uint16:
-        return copy<std::uint16_t>(from, components, normalized, to);
+        return copy_elements<std::uint16_t>(from, stride, components, normalized, to);
     case uint32:
-        return copy<std::uint32_t>(from, components, normalized, to);
+        return copy_elements<std::uint32_t>(from, stride, components, normalized, to);
     default:
         if constexpr (std::is_floating_point_v<To>)
-            return copy<float>(from, components, normalized, to);
+            return copy_elements<float>(from, stride, components, normalized, to);
     }
+}
+
+/// Whether a type of components is that of T.
+template <class T>
+bool is_same(std::size_t type) {
+    return type == (std::is_same_v<T, float> ? float32 : uint32);
 }
 
 }
@@ -89,30 +102,29 @@ GltfAccessor::GltfAccessor(GltfFile& file, const GltfValue& accessor, int least_
     if (components_ < least_components || components_ > most_components)
         accessor["type"].fail(
             fmt::format("is {}, which does not fit here; export the file again", accessor["type"].text()));
-    const std::size_t size = size_of(accessor["componentType"]) * static_cast<std::size_t>(components_);
+    element_size_ = size_of(accessor["componentType"]) * static_cast<std::size_t>(components_);
     if (const std::optional<GltfValue> normalized = accessor.find("normalized"))
         normalized_ = normalized->flag();
     if (accessor.has("bufferView"))
-        dense_ = elements(file, accessor, count_, size, true);
+        dense_ = elements(file, accessor, count_, element_size_, true);
     if (const std::optional<GltfValue> sparse = accessor.find("sparse")) {
         const GltfValue indices = (*sparse)["indices"];
         const std::size_t count = (*sparse)["count"].count(), type = indices["componentType"].count();
         const Elements at = elements(file, indices, count, size_of(indices["componentType"]), false);
-        sparse_ = elements(file, (*sparse)["values"], count, size, false);
+        sparse_ = elements(file, (*sparse)["values"], count, element_size_, false);
         sparse_at_.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            copy_element(at.begin + i * at.stride, type, 1, false, &sparse_at_[i]);
+        copy_elements(type, at.bytes.read(buffer_).data(), at.stride, 1, false, std::span(sparse_at_));
+        for (std::size_t i = 0; i < count; ++i)
             if (sparse_at_[i] >= count_)
                 indices.fail(fmt::format("element {} is {}, but the accessor has {} elements; export the file again", i,
                                          sparse_at_[i], count_));
-        }
     }
 }
 
 GltfAccessor::Elements GltfAccessor::elements(GltfFile& file, const GltfValue& source, std::size_t count,
                                               std::size_t element_size, bool may_be_interleaved) const {
     const GltfValue view = source["bufferView"].target(file.root(), "bufferViews");
-    const std::string_view bytes = file.view(view);
+    const FilePart bytes = file.view(view);
     const std::size_t stride = may_be_interleaved ? view.count_or("byteStride", element_size) : element_size;
     const std::size_t offset = source.count_or("byteOffset", 0);
     if (stride < element_size)
@@ -122,33 +134,46 @@ GltfAccessor::Elements GltfAccessor::elements(GltfFile& file, const GltfValue& s
                       (bytes.size() - offset - element_size) / stride < count - 1))
         source.fail(fmt::format("{} elements do not fit its buffer view of {} bytes; copy or export the file again",
                                 grouped(count), grouped(bytes.size())));
-    return {bytes.data() + (count > 0 ? offset : 0), stride};
+    return {count > 0 ? bytes.part(offset, (count - 1) * stride + element_size) : FilePart(), stride};
 }
 
 template <class T>
-std::vector<T> GltfAccessor::values() const {
+void GltfAccessor::decode(const Elements& elements, std::size_t first, std::span<T> to) {
+    if (to.empty())
+        return;
     const auto components = static_cast<std::size_t>(components_);
-    std::vector<T> values(count_ * components);
-    if (dense_.begin != nullptr && std::is_same_v<T, float> && component_type_ == float32 &&
-        dense_.stride == components * sizeof(float)) {
-        if (!values.empty())
-            std::memcpy(values.data(), dense_.begin, values.size() * sizeof(T));
-    } else if (dense_.begin != nullptr) {
-        for (std::size_t i = 0; i < count_; ++i)
-            copy_element(dense_.begin + i * dense_.stride, component_type_, components, normalized_,
-                         values.data() + i * components);
-    }
-    for (std::size_t i = 0; i < sparse_at_.size(); ++i)
-        copy_element(sparse_.begin + i * sparse_.stride, component_type_, components, normalized_,
-                     values.data() + sparse_at_[i] * components);
-    return values;
+    const std::size_t count = to.size() / components;
+    const FilePart bytes = elements.bytes.part(first * elements.stride, (count - 1) * elements.stride + element_size_);
+    if (is_same<T>(component_type_) && elements.stride == element_size_)
+        bytes.read_to(reinterpret_cast<char*>(to.data()));
+    else
+        copy_elements(component_type_, bytes.read(buffer_).data(), elements.stride, components, normalized_, to);
 }
 
-std::vector<float> GltfAccessor::floats() const {
+template <class T>
+GltfArray<T> GltfAccessor::values() const {
+    const auto components = static_cast<std::size_t>(components_);
+    const auto decode_dense = [accessor = *this, components](std::size_t first, std::span<T> to) mutable {
+        if (accessor.dense_)
+            accessor.decode(*accessor.dense_, first / components, to);
+        else
+            std::fill(to.begin(), to.end(), T(0));
+    };
+    GltfArray<T> dense(count_ * components, decode_dense);
+    if (sparse_at_.empty())
+        return dense;
+    std::vector<T> all = dense.all(), sparse(sparse_at_.size() * components);
+    GltfAccessor(*this).decode(sparse_, 0, std::span(sparse));
+    for (std::size_t i = 0; i < sparse_at_.size(); ++i)
+        std::copy_n(sparse.data() + i * components, components, all.data() + sparse_at_[i] * components);
+    return GltfArray<T>(std::move(all));
+}
+
+GltfArray<float> GltfAccessor::floats() const {
     return values<float>();
 }
 
-std::vector<std::uint32_t> GltfAccessor::indices() const {
+GltfArray<std::uint32_t> GltfAccessor::indices() const {
     if (component_type_ != uint8 && component_type_ != uint16 && component_type_ != uint32)
         value_["componentType"].fail("is not an unsigned integer, as indices are; export the file again");
     return values<std::uint32_t>();

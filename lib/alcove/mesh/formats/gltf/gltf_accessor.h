@@ -1,9 +1,13 @@
 /// The values of glTF accessors: of any component type, interleaved, normalized and sparse.
 #pragma once
 
+#include "alcove/mesh/formats/gltf/gltf_array.h"
 #include "alcove/mesh/formats/gltf/gltf_file.h"
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace alcove {
@@ -17,30 +21,33 @@ class GltfAccessor {
 
     std::size_t count() const { return count_; }
     int components() const { return components_; }
-    /// All components as floats; normalized integers as numbers in [0, 1] or [-1, 1].
-    std::vector<float> floats() const;
+    /// All components as floats; normalized integers as numbers in [0, 1] or [-1, 1]. The file must outlive the result.
+    GltfArray<float> floats() const;
     /// The values of an accessor with one component. \throw InputError if they are not unsigned integers.
-    std::vector<std::uint32_t> indices() const;
+    GltfArray<std::uint32_t> indices() const;
 
   private:
-    /// Elements in memory, `stride` bytes apart.
+    /// Elements that begin `stride` bytes apart.
     struct Elements {
-        const char* begin = nullptr; ///< null: zeros
+        FilePart bytes;
         std::size_t stride = 0;
     };
     Elements elements(GltfFile& file, const GltfValue& source, std::size_t count, std::size_t element_size,
                       bool may_be_interleaved) const;
     template <class T>
-    std::vector<T> values() const;
+    GltfArray<T> values() const;
+    template <class T>
+    void decode(const Elements& elements, std::size_t first, std::span<T> to);
 
     GltfValue value_;
     std::size_t count_;
     int components_ = 1;
-    std::size_t component_type_;
+    std::size_t component_type_, element_size_;
     bool normalized_ = false;
-    Elements dense_;
+    std::optional<Elements> dense_; ///< empty: zeros
     std::vector<std::uint32_t> sparse_at_;
     Elements sparse_;
+    std::string buffer_; ///< of encoded elements
 };
 
 /// The count of an accessor. \throw InputError if it is not a whole number, or exceeds 2^32.

@@ -46,12 +46,12 @@ bool apply_filter(std::string_view filter, char* to, std::size_t count, std::siz
 
 }
 
-std::string_view range_in(std::string_view bytes, const GltfValue& object) {
+FilePart range_in(const FilePart& bytes, const GltfValue& object) {
     const std::size_t offset = object.count_or("byteOffset", 0), length = object["byteLength"].count();
     if (offset > bytes.size() || length > bytes.size() - offset)
         object.fail(fmt::format("{} bytes from byte {} exceed the buffer of {} bytes; copy or export the file again",
                                 grouped(length), grouped(offset), grouped(bytes.size())));
-    return bytes.substr(offset, length);
+    return bytes.part(offset, length);
 }
 
 std::optional<GltfValue> meshopt_of(const GltfValue& view) {
@@ -60,13 +60,14 @@ std::optional<GltfValue> meshopt_of(const GltfValue& view) {
 }
 
 std::string decompress(GltfFile& file, const GltfValue& meshopt) {
-    const std::string_view from = range_in(file.buffer(meshopt["buffer"].target(file.root(), "buffers")), meshopt);
+    const FilePart part = range_in(file.buffer(meshopt["buffer"].target(file.root(), "buffers")), meshopt);
     const std::size_t count = meshopt["count"].count(), stride = meshopt["byteStride"].count();
     constexpr std::size_t max_stride = 256;
     if (stride == 0 || stride > max_stride)
         meshopt["byteStride"].fail(fmt::format("is {}, not from 1 to {}; export the file again", stride, max_stride));
     check_memory(meshopt, static_cast<double>(count) * static_cast<double>(stride));
-    std::string to(count * stride, '\0');
+    std::string buffer, to(count * stride, '\0');
+    const std::string_view from = part.read(buffer);
     if (!decode_view(meshopt["mode"].text(), to.data(), count, stride, from) ||
         !apply_filter(meshopt.text_or("filter", "NONE"), to.data(), count, stride))
         meshopt.fail("the compressed data is damaged; export the file again");
@@ -74,7 +75,8 @@ std::string decompress(GltfFile& file, const GltfValue& meshopt) {
 }
 
 DracoMesh decode_draco(GltfFile& file, const GltfValue& draco) {
-    const std::string_view from = file.view(draco["bufferView"].target(file.root(), "bufferViews"));
+    std::string bytes;
+    const std::string_view from = file.view(draco["bufferView"].target(file.root(), "bufferViews")).read(bytes);
     draco::DecoderBuffer buffer;
     buffer.Init(from.data(), from.size());
     draco::Decoder decoder;

@@ -14,7 +14,7 @@
 namespace alcove {
 
 /// The part of `bytes` that the byteOffset and byteLength of an object give.
-std::string_view range_in(std::string_view bytes, const GltfValue& object);
+FilePart range_in(const FilePart& bytes, const GltfValue& object);
 
 /// The compression of an element of `bufferViews`, if it has one.
 std::optional<GltfValue> meshopt_of(const GltfValue& view);

@@ -4,19 +4,24 @@
 #include "alcove/base/detail/limits.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
-#include "alcove/mesh/formats/byte_reader.h"
 #include "alcove/mesh/formats/gltf/gltf_compression.h"
 #include "alcove/mesh/formats/gltf/gltf_uri.h"
 #include "alcove/mesh/formats/text_encoding.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
 
 namespace alcove {
 namespace {
 
+static_assert(std::endian::native == std::endian::little, "glTF is read without swapping bytes");
+
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk_type = 0x004e4942;
+constexpr std::size_t header_size = 12, chunk_header_size = 8;
 constexpr std::size_t max_depth = 200; // writing the JSON is recursive
 
 }
@@ -36,44 +41,52 @@ GltfFile::GltfFile(const FileBytes& bytes) : bytes_(bytes) {
         const std::size_t length = root()["buffers"][0].count_or("byteLength", 0);
         constexpr std::size_t padding = 3;
         if (length <= binary_chunk_.size() && binary_chunk_.size() - length <= padding)
-            binary_chunk_ = binary_chunk_.substr(0, length);
+            binary_chunk_ = binary_chunk_.part(0, length);
     }
+}
+
+/// An integer of 32 bits, little endian as all of glTF.
+std::uint32_t GltfFile::number_at(std::size_t place, const char* expected) const {
+    std::uint32_t number = 0;
+    const std::size_t size = bytes_.size_of_file();
+    if (size - std::min(place, size) < sizeof(number))
+        bytes_.fail_at_byte(size, fmt::format("the file ends early: {} is missing; copy or export it again", expected));
+    std::memcpy(&number, bytes_.part(place, sizeof(number)).read().data(), sizeof(number));
+    return number;
 }
 
 void GltfFile::parse_chunks() {
     is_binary_ = true;
-    constexpr std::size_t header = 12, chunk_header = 8;
-    ByteReader reader(bytes_, bytes_.begin() + 4, std::endian::little);
-    const auto version = reader.read<std::uint32_t>("the version");
+    const std::uint32_t version = number_at(4, "the version");
     if (version != 2)
-        reader.fail(fmt::format("version {} of binary glTF cannot be read; convert it to version 2", version));
-    const auto length = reader.read<std::uint32_t>("the length");
-    if (length > bytes_.size() || length < header)
-        reader.fail(fmt::format("the header gives a length of {} bytes, but the file has {}; copy or export it again",
-                                grouped(length), grouped(bytes_.size())));
-    const char* const end = bytes_.begin() + length;
-    const char* at = bytes_.begin() + header;
+        bytes_.fail_at_byte(8,
+                            fmt::format("version {} of binary glTF cannot be read; convert it to version 2", version));
+    const std::uint32_t end = number_at(8, "the length");
+    if (end > bytes_.size_of_file() || end < header_size)
+        bytes_.fail_at_byte(header_size, fmt::format("the header gives a length of {} bytes, but the file has {}; copy "
+                                                     "or export it again",
+                                                     grouped(end), grouped(bytes_.size_of_file())));
+    std::size_t at = header_size;
     for (int number = 0; at < end; ++number) {
-        ByteReader chunk(bytes_, at, std::endian::little);
-        const auto size = chunk.read<std::uint32_t>("the length of a chunk");
-        const auto type = chunk.read<std::uint32_t>("the type of a chunk");
-        const auto left = static_cast<std::size_t>(end - at);
-        if (left < chunk_header || size > left - chunk_header)
-            chunk.fail(fmt::format("a chunk of {} bytes does not fit the rest of the file; copy or export it again",
-                                   grouped(size)));
-        const std::string_view data(chunk.at(), size);
+        const std::uint32_t size = number_at(at, "the length of a chunk");
+        const std::uint32_t type = number_at(at + 4, "the type of a chunk");
+        const std::size_t left = end - at, data = at + chunk_header_size;
+        if (left < chunk_header_size || size > left - chunk_header_size)
+            bytes_.fail_at_byte(data, fmt::format("a chunk of {} bytes does not fit the rest of the file; copy or "
+                                                  "export it again",
+                                                  grouped(size)));
         if (number == 0) {
             if (type != json_chunk)
-                chunk.fail("the first chunk is not JSON; export the file again");
-            json_text_ = data;
+                bytes_.fail_at_byte(data, "the first chunk is not JSON; export the file again");
+            json_text_ = bytes_.view().substr(data, size);
         } else if (number == 1 && type == binary_chunk_type) {
             has_binary_chunk_ = true;
-            binary_chunk_ = data;
+            binary_chunk_ = bytes_.part(data, size);
         } else {
-            other_chunks_ = {at, left};
+            other_chunks_ = bytes_.part(at, left);
             break;
         }
-        at += chunk_header + size;
+        at = data + size;
     }
 }
 
@@ -128,7 +141,7 @@ bool GltfFile::is_indented() const {
            (json_text_[brace + 1] == '\n' || json_text_[brace + 1] == '\r');
 }
 
-std::string_view GltfFile::bytes_of_uri(const GltfValue& holder) {
+FilePart GltfFile::bytes_of_uri(const GltfValue& holder) {
     const std::string& uri = holder["uri"].text();
     const std::string key = is_data_uri(uri) ? holder.place() : uri;
     auto known = files_.find(key);
@@ -159,13 +172,13 @@ std::string_view GltfFile::bytes_of_uri(const GltfValue& holder) {
             known = files_.try_emplace(key, file).first;
         }
     }
-    return known->second.view();
+    return FilePart(known->second.view());
 }
 
-std::string_view GltfFile::buffer(const GltfValue& buffer) {
+FilePart GltfFile::buffer(const GltfValue& buffer) {
     const std::lock_guard lock(mutex_);
     const std::size_t length = buffer["byteLength"].count();
-    std::string_view bytes;
+    FilePart bytes;
     if (!buffer.has("uri")) {
         if (!has_binary_chunk_ || buffer.place() != "buffers[0]")
             buffer.fail("has no data; export the file again");
@@ -176,15 +189,15 @@ std::string_view GltfFile::buffer(const GltfValue& buffer) {
     if (bytes.size() < length)
         buffer.fail(fmt::format("has {} bytes, fewer than its byteLength of {}; copy or export the file again",
                                 grouped(bytes.size()), grouped(length)));
-    return bytes.substr(0, length);
+    return bytes.part(0, length);
 }
 
-std::string_view GltfFile::image(const GltfValue& image) {
+FilePart GltfFile::image(const GltfValue& image) {
     const std::lock_guard lock(mutex_);
     return image.has("uri") ? bytes_of_uri(image) : view(image["bufferView"].target(root(), "bufferViews"));
 }
 
-std::string_view GltfFile::view(const GltfValue& view) {
+FilePart GltfFile::view(const GltfValue& view) {
     const std::lock_guard lock(mutex_);
     if (const std::optional<GltfValue> compression = meshopt_of(view)) {
         auto known = decompressed_.find(view.place());
@@ -196,9 +209,17 @@ std::string_view GltfFile::view(const GltfValue& view) {
                                              "--max-memory",
                                              bytes_.path().string(), bytes_text(memory_limit())));
         }
-        return known->second;
+        return FilePart(known->second);
     }
     return range_in(buffer(view["buffer"].target(root(), "buffers")), view);
+}
+
+std::size_t head_of_glb(std::string_view first_bytes) {
+    if (!first_bytes.starts_with("glTF") || first_bytes.size() < header_size + chunk_header_size)
+        return std::string_view::npos;
+    std::uint32_t json_size = 0;
+    std::memcpy(&json_size, first_bytes.data() + header_size, sizeof(json_size));
+    return header_size + chunk_header_size + json_size;
 }
 
 }

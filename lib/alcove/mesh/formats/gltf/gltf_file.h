@@ -1,9 +1,10 @@
-/// A glTF file in memory: its JSON, its buffers and the views of them.
+/// A glTF file: its JSON, its buffers and the views of them.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
 #include "alcove/mesh/formats/gltf/gltf_value.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -22,30 +23,32 @@ class GltfFile {
     const FileBytes& bytes() const { return bytes_; }
     bool is_binary() const { return is_binary_; }
     /// The bytes of the binary chunk, without padding if buffers[0] says so; empty if there is no such chunk.
-    std::string_view binary_chunk() const { return binary_chunk_; }
+    FilePart binary_chunk() const { return binary_chunk_; }
     bool has_binary_chunk() const { return has_binary_chunk_; }
     /// Chunks after the binary one, with their headers.
-    std::string_view other_chunks() const { return other_chunks_; }
+    FilePart other_chunks() const { return other_chunks_; }
     bool is_indented() const; ///< whether the JSON has line breaks
 
-    /// The bytes of an element of `buffers`, read at the first use. \throw InputError if they are missing, are too
+    /// The bytes of an element of `buffers`, found at the first use. \throw InputError if they are missing, are too
     /// few or lie outside the folder of the file.
-    std::string_view buffer(const GltfValue& buffer);
+    FilePart buffer(const GltfValue& buffer);
     /// The bytes of an element of `bufferViews`, decompressed at the first use.
-    std::string_view view(const GltfValue& view);
+    FilePart view(const GltfValue& view);
     /// The bytes of an element of `images`. \throw like buffer()
-    std::string_view image(const GltfValue& image);
+    FilePart image(const GltfValue& image);
 
   private:
     void parse_chunks();
+    std::uint32_t number_at(std::size_t place, const char* expected) const;
     void parse_json(std::string_view text);
     void check_json(std::string_view text) const;
-    std::string_view bytes_of_uri(const GltfValue& holder);
+    FilePart bytes_of_uri(const GltfValue& holder);
 
     FileBytes bytes_;
     Json json_;
     bool is_binary_ = false, has_binary_chunk_ = false;
-    std::string_view json_text_, binary_chunk_, other_chunks_;
+    std::string_view json_text_;
+    FilePart binary_chunk_, other_chunks_;
     std::recursive_mutex mutex_;             ///< of the members below, which are filled at their first use
     std::map<std::string, FileBytes> files_; ///< contents of URIs: files by URI, data URIs by place in the JSON
     std::map<std::string, std::string> decompressed_;

@@ -28,7 +28,7 @@ GltfImage metallic_roughness_image(GltfFile& file, std::size_t material) {
     if (!texture.has("source"))
         texture.fail("has no PNG or JPEG image, which --pack-orm needs; convert it, or leave out --pack-orm");
     const GltfValue image = texture["source"].target(root, "images");
-    return {fmt::format("{}: {}", file.bytes().path().string(), image.place()), file.image(image)};
+    return {fmt::format("{}: {}", file.bytes().path().string(), image.place()), file.image(image).read()};
 }
 
 }

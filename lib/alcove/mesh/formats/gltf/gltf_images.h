@@ -5,13 +5,12 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace alcove {
 
 struct GltfImage {
-    std::string name;       ///< "scene.glb: images[3]", for messages
-    std::string_view bytes; ///< live as long as the file
+    std::string name; ///< "scene.glb: images[3]", for messages
+    std::string bytes;
 };
 
 /// The set of UVs that a material uses for its metallic-roughness texture; empty if there is none, or if

@@ -64,7 +64,7 @@ GltfOutput::GltfOutput(const fs::path& target) : target_(target), is_binary_(is_
 
 GltfOutput::GltfOutput(const fs::path& target, GltfFile& file)
     : target_(target), is_binary_(is_glb(target)), is_indented_(file.is_indented()), json_(file.root().json()),
-      other_chunks_(is_binary_ ? file.other_chunks() : std::string_view()) {
+      other_chunks_(is_binary_ ? file.other_chunks() : FilePart()) {
     choose_buffer(file);
     if (!same_folder(file.bytes().path().parent_path(), target.parent_path())) {
         embed_buffers(file);
@@ -99,9 +99,10 @@ void GltfOutput::choose_buffer(GltfFile& file) {
         binary_ = old_buffer(buffer_);
 }
 
-void GltfOutput::set_data_uri(std::size_t buffer, std::string_view first, std::string_view second) {
+void GltfOutput::set_data_uri(std::size_t buffer, const FilePart& first, std::string_view second) {
     Json made; // with the URI first, as is usual
-    made["uri"] = data_uri(octets, first, second);
+    std::string bytes;
+    made["uri"] = data_uri(octets, first.read(bytes), second);
     Json& old = json_["buffers"][buffer];
     old.erase("uri");
     made.update(old);
@@ -110,10 +111,11 @@ void GltfOutput::set_data_uri(std::size_t buffer, std::string_view first, std::s
 }
 
 void GltfOutput::embed_buffers(GltfFile& file) {
+    std::string bytes;
     for (std::size_t b = 0; json_.contains("buffers") && b < json_["buffers"].size(); ++b) {
         Json& buffer = json_["buffers"][b];
         if (buffer.contains("uri") && !is_data_uri(buffer["uri"].get_ref<const std::string&>()))
-            buffer["uri"] = data_uri(octets, file.buffer(file.root()["buffers"][b]));
+            buffer["uri"] = data_uri(octets, file.buffer(file.root()["buffers"][b]).read(bytes));
     }
 }
 
@@ -265,7 +267,7 @@ void GltfOutput::take_out(std::size_t number) {
     const bool is_last = next == binary_.size(); // only new data follows
     const std::size_t count = is_last ? next - begin : (next - begin) / 4 * 4, old_size = binary_.size();
     own_binary().erase(begin, count);
-    binary_ = rewritten_;
+    binary_ = FilePart(rewritten_);
     const std::size_t shift = is_last ? padded(old_size) - padded(begin) : count; // the bytes after it stay aligned
     for (const Range& range : ranges)
         if (range.begin > begin)
@@ -274,7 +276,7 @@ void GltfOutput::take_out(std::size_t number) {
 
 std::string& GltfOutput::own_binary() {
     if (!is_rewritten_)
-        rewritten_ = binary_;
+        rewritten_ = binary_.read();
     is_rewritten_ = true;
     return rewritten_;
 }
@@ -295,7 +297,7 @@ bool GltfOutput::overwrite(std::size_t accessor, int component_type, std::string
         view.contains("extensions") || offset > binary_.size() || bytes.size() > binary_.size() - offset)
         return false;
     own_binary().replace(offset, bytes.size(), bytes);
-    binary_ = rewritten_;
+    binary_ = FilePart(rewritten_);
     return true;
 }
 
@@ -322,7 +324,8 @@ void GltfOutput::write() {
         output.commit();
         return;
     }
-    const std::string_view first = in_chunk_ ? binary_ : chunk_, second = in_chunk_ ? added_ : std::string_view();
+    const FilePart first = in_chunk_ ? binary_ : chunk_;
+    const std::string_view second = in_chunk_ ? added_ : std::string_view();
     const std::size_t binary_size = first.size() + second.size();
     constexpr std::size_t header = 12, chunk_header = 8;
     const std::size_t total = header + chunk_header + padded(text.size()) +
@@ -337,11 +340,11 @@ void GltfOutput::write() {
         after_text += number(padded(binary_size)) + std::string("BIN\0", 4);
     output.write(after_text);
     if (binary_size > 0) {
-        output.write(first);
+        first.write_to(output);
         output.write(second);
         output.write(padding(binary_size, '\0'));
     }
-    output.write(other_chunks_);
+    other_chunks_.write_to(output);
     output.commit();
 }
 

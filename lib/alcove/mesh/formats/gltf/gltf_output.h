@@ -46,7 +46,7 @@ class GltfOutput {
 
   private:
     void choose_buffer(GltfFile& file);
-    void set_data_uri(std::size_t buffer, std::string_view first, std::string_view second = {});
+    void set_data_uri(std::size_t buffer, const FilePart& first, std::string_view second = {});
     std::size_t append(std::string_view bytes); ///< returns the offset
     std::size_t add_view(std::string_view bytes, int target);
     std::size_t add_accessor(Json accessor);
@@ -59,13 +59,13 @@ class GltfOutput {
     std::filesystem::path target_;
     bool is_binary_, is_indented_ = false;
     Json json_;
-    std::string_view chunk_, other_chunks_; ///< of the file
-    std::size_t buffer_ = 0;                ///< the one that is appended to
-    bool in_chunk_;                         ///< whether that is the binary chunk
-    std::string_view binary_;               ///< what the buffer already has
-    bool is_rewritten_ = false;             ///< whether binary_ is a copy
-    std::string rewritten_;                 ///< the copy
-    std::string added_;                     ///< after binary_, which is padded to a multiple of 4
+    FilePart chunk_, other_chunks_; ///< of the file
+    std::size_t buffer_ = 0;        ///< the one that is appended to
+    bool in_chunk_;                 ///< whether that is the binary chunk
+    FilePart binary_;               ///< what the buffer already has
+    bool is_rewritten_ = false;     ///< whether binary_ is a copy
+    std::string rewritten_;         ///< the copy
+    std::string added_;             ///< after binary_, which is padded to a multiple of 4
     std::vector<std::string> warnings_;
 };
 

@@ -1,10 +1,12 @@
 #include "alcove/base/detail/limits.h"
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
+#include "alcove/base/parallel.h"
 #include "alcove/mesh/detail/srgb.h"
 #include "alcove/mesh/formats/formats.h"
 #include "alcove/mesh/formats/gltf/gltf_accessor.h"
-#include "alcove/mesh/formats/gltf/gltf_compression.h"
 #include "alcove/mesh/formats/gltf/gltf_document.h"
+#include "alcove/mesh/formats/gltf/gltf_primitive.h"
 #include "alcove/mesh/normals.h"
 
 #include <fmt/format.h>
@@ -21,8 +23,6 @@
 
 namespace alcove {
 namespace {
-
-enum Mode : std::size_t { triangles = 4, triangle_strip, triangle_fan };
 
 constexpr Color white{255, 255, 255, 255};
 
@@ -46,73 +46,6 @@ void check_extensions(const GltfValue& root) {
     }
 }
 
-std::optional<GltfValue> draco_of(const GltfValue& primitive) {
-    const std::optional<GltfValue> extensions = primitive.find("extensions");
-    return extensions ? extensions->find("KHR_draco_mesh_compression") : std::nullopt;
-}
-
-// Takes an attribute out of a decoded primitive; empty if there is none.
-std::vector<float> take_attribute(DracoMesh& mesh, const GltfValue& extension, const std::string& name, int least,
-                                  int most) {
-    const auto found = mesh.attributes.find(name);
-    if (found == mesh.attributes.end())
-        return {};
-    if (found->second.components < least || found->second.components > most)
-        extension.fail(fmt::format("{} has {} components; export the file again", name, found->second.components));
-    return std::move(found->second.floats);
-}
-
-// glTF counts v from the top of the image, Alcove from the bottom.
-std::vector<Vec2> as_uvs(const std::vector<float>& floats) {
-    std::vector<Vec2> uvs(floats.size() / 2);
-    for (std::size_t i = 0; i < uvs.size(); ++i)
-        uvs[i] = {floats[2 * i], 1.0f - floats[2 * i + 1]};
-    return uvs;
-}
-
-std::optional<GltfValue> accessor_of(const GltfValue& root, const GltfValue& primitive, const char* attribute) {
-    const GltfValue attributes = primitive["attributes"];
-    if (!attributes.has(attribute))
-        return {};
-    return attributes[attribute].target(root, "accessors");
-}
-
-/// Whether the faces of a primitive are read.
-bool is_surface(const GltfValue& primitive) {
-    const std::size_t mode = primitive.count_or("mode", triangles);
-    return mode >= triangles && mode <= triangle_fan && primitive["attributes"].has("POSITION");
-}
-
-/// Primitives of one mesh that share their vertices, decoded.
-struct DecodedVertices {
-    std::vector<std::size_t> primitives;
-    std::vector<std::vector<std::uint32_t>> corners; ///< of the triangles of each primitive
-    std::vector<float> positions, normals, colors;   ///< three, three and color_components per vertex
-    int color_components = 4;
-    std::vector<Vec2> uvs;
-
-    std::size_t count() const { return positions.size() / 3; }
-};
-
-/// The corners of the triangles of a list, strip or fan. Degenerate triangles of strips are dropped, as they only
-/// connect parts.
-std::vector<std::uint32_t> as_triangles(std::vector<std::uint32_t> indices, std::size_t mode) {
-    if (mode == triangles) {
-        indices.resize(indices.size() / 3 * 3);
-        return indices;
-    }
-    std::vector<std::uint32_t> corners;
-    for (std::size_t i = 2; i < indices.size(); ++i) {
-        const std::uint32_t c = indices[i];
-        std::uint32_t a = indices[mode == triangle_fan ? 0 : i - 2], b = indices[i - 1];
-        if (mode == triangle_strip && i % 2 == 1)
-            std::swap(a, b);
-        if (a != b && b != c && a != c)
-            corners.insert(corners.end(), {a, b, c});
-    }
-    return corners;
-}
-
 class GltfReader {
   public:
     explicit GltfReader(const FileBytes& bytes)
@@ -122,13 +55,12 @@ class GltfReader {
         check_extensions(root_);
         document_->placements = placements_of(file_);
         check_size();
-        std::map<std::size_t, std::size_t> last; // placement of each mesh
-        for (std::size_t p = 0; p < document_->placements.size(); ++p)
-            last[document_->placements[p].mesh] = p;
+        for (const GltfPlacement& placement : document_->placements)
+            ++uses_[placement.mesh];
         for (std::size_t p = 0; p < document_->placements.size(); ++p) {
             add(p);
-            if (const std::size_t mesh = document_->placements[p].mesh; last[mesh] == p)
-                decoded_[mesh].clear();
+            if (const std::size_t mesh = document_->placements[p].mesh; --uses_[mesh] == 0)
+                primitives_.erase(mesh);
         }
         if (mesh_.face_count() == 0)
             file_.bytes().fail(left_out_ > 0 ? "contains points or lines but no faces; export it with triangles"
@@ -143,10 +75,11 @@ class GltfReader {
   private:
     GltfValue mesh_value(std::size_t mesh) const { return root_["meshes"][mesh]; }
 
-    /// Counts vertices and corners, including all instances, before any are decoded.
+    /// Counts vertices and corners, including all instances, before any are decoded, and makes room for them.
     void check_size() {
         struct Size {
             double vertices = 0.0, corners = 0.0, groups = 0.0;
+            std::size_t shared = 0; // vertices, if primitives with the same ones are counted once
         };
         std::map<std::size_t, Size> sizes; // by mesh
         Size all;
@@ -154,25 +87,24 @@ class GltfReader {
             const auto [known, is_new] = sizes.try_emplace(placement.mesh);
             if (is_new) {
                 const GltfValue primitives = mesh_value(placement.mesh)["primitives"];
+                std::set<std::string> attributes;
                 for (std::size_t i = 0; i < primitives.size(); ++i) {
                     if (!is_surface(primitives[i]))
                         continue;
                     const GltfValue positions = *accessor_of(root_, primitives[i], "POSITION");
                     const GltfAccessor checked(file_, positions, 3, 3); // its count fits its buffer view
                     const auto count = static_cast<double>(checked.count());
-                    const bool strip = primitives[i].count_or("mode", triangles) != triangles;
                     known->second.vertices += count;
                     known->second.groups += 1.0;
-                    known->second.corners +=
-                        (strip ? 3.0 : 1.0) *
-                        (primitives[i].has("indices")
-                             ? double(count_of_accessor(primitives[i]["indices"].target(root_, "accessors")))
-                             : count);
+                    known->second.corners += most_corners(root_, primitives[i], checked.count());
+                    if (attributes.insert(primitives[i]["attributes"].json().dump()).second)
+                        known->second.shared += checked.count();
                 }
             }
             all.vertices += known->second.vertices;
             all.corners += known->second.corners;
             all.groups += known->second.groups + 1.0;
+            all.shared += known->second.shared;
         }
         constexpr double bytes_per_vertex = sizeof(Vec3d) + sizeof(Vec3) + sizeof(Vec2) + sizeof(Color);
         constexpr double bytes_per_corner = sizeof(std::uint32_t) * (1.0 + 1.0 / 3.0);
@@ -187,17 +119,24 @@ class GltfReader {
         constexpr auto most = static_cast<double>(std::numeric_limits<std::uint32_t>::max());
         if (all.vertices > most || all.corners > most)
             throw LimitError(name + ": more than 2^32 vertices or corners; split the scene");
+        vertex_room_ = all.shared;
+        reserve_huge(mesh_.corners, static_cast<std::size_t>(all.corners));
+        reserve_huge(mesh_.face_begin, static_cast<std::size_t>(all.corners) / 3 + 1);
     }
 
-    const std::vector<DecodedVertices>& decoded(std::size_t mesh) {
-        auto known = decoded_.find(mesh);
-        if (known == decoded_.end())
-            known = decoded_.try_emplace(mesh, decode(mesh_value(mesh))).first;
+    const std::vector<GltfPrimitives>& primitives_of(std::size_t mesh) {
+        const auto [known, is_new] = primitives_.try_emplace(mesh);
+        if (is_new) {
+            known->second = find_primitives(mesh_value(mesh));
+            if (uses_[mesh] > 1) // or else they are decoded straight into the mesh
+                for (GltfPrimitives& primitives : known->second)
+                    primitives.keep();
+        }
         return known->second;
     }
 
-    std::vector<DecodedVertices> decode(const GltfValue& mesh) {
-        std::vector<DecodedVertices> all;
+    std::vector<GltfPrimitives> find_primitives(const GltfValue& mesh) {
+        std::vector<GltfPrimitives> all;
         std::unordered_map<std::string, std::size_t> by_attributes; // indices into `all`
         const GltfValue primitives = mesh["primitives"];
         for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -208,163 +147,89 @@ class GltfReader {
                 ++left_out_;
                 continue;
             }
-            if (const std::optional<GltfValue> draco = draco_of(primitive)) {
-                all.push_back(decode_compressed(primitive, *draco));
-                all.back().primitives.push_back(i);
+            if (is_draco(primitive)) {
+                all.push_back(vertices_of(file_, primitive));
+                all.back().numbers.push_back(i);
                 continue;
             }
             const auto [same, is_new] = by_attributes.try_emplace(primitive["attributes"].json().dump(), all.size());
             if (is_new)
-                all.push_back(decode_vertices(primitive));
-            DecodedVertices& vertices = all[same->second];
-            vertices.primitives.push_back(i);
-            vertices.corners.push_back(corners_of(primitive, vertices.count()));
+                all.push_back(vertices_of(file_, primitive));
+            GltfPrimitives& shared = all[same->second];
+            shared.numbers.push_back(i);
+            shared.corners.push_back(corners_of(file_, primitive, shared.count()));
         }
         return all;
-    }
-
-    std::vector<float> floats(const GltfValue& primitive, const char* attribute, int least, int most, std::size_t count,
-                              int* components = nullptr) {
-        const std::optional<GltfValue> value = accessor_of(root_, primitive, attribute);
-        if (!value)
-            return {};
-        const GltfAccessor accessor(file_, *value, least, most);
-        if (accessor.count() != count)
-            value->fail(fmt::format("{} has {} elements, but POSITION has {}; export the file again", attribute,
-                                    grouped(accessor.count()), grouped(count)));
-        if (components != nullptr)
-            *components = accessor.components();
-        return accessor.floats();
-    }
-
-    DecodedVertices decode_vertices(const GltfValue& primitive) {
-        DecodedVertices vertices;
-        const std::size_t count = count_of_accessor(*accessor_of(root_, primitive, "POSITION"));
-        vertices.positions = floats(primitive, "POSITION", 3, 3, count);
-        vertices.normals = floats(primitive, "NORMAL", 3, 3, count);
-        vertices.colors = floats(primitive, "COLOR_0", 3, 4, count, &vertices.color_components);
-        vertices.uvs = uvs_of_primitive(file_, primitive, 0);
-        return vertices;
-    }
-
-    DecodedVertices decode_compressed(const GltfValue& primitive, const GltfValue& extension) {
-        DracoMesh draco = decode_draco(file_, extension);
-        DecodedVertices vertices;
-        const auto take = [&](const char* name, int least, int most) {
-            return take_attribute(draco, extension, name, least, most);
-        };
-        const std::size_t count = count_of_accessor(*accessor_of(root_, primitive, "POSITION"));
-        vertices.positions = take("POSITION", 3, 3);
-        vertices.normals = take("NORMAL", 3, 3);
-        if (const auto colors = draco.attributes.find("COLOR_0"); colors != draco.attributes.end())
-            vertices.color_components = colors->second.components;
-        vertices.colors = take("COLOR_0", 3, 4);
-        // Attributes that are not compressed.
-        if (vertices.normals.empty())
-            vertices.normals = floats(primitive, "NORMAL", 3, 3, count);
-        if (vertices.colors.empty())
-            vertices.colors = floats(primitive, "COLOR_0", 3, 4, count, &vertices.color_components);
-        vertices.uvs = as_uvs(take("TEXCOORD_0", 2, 2));
-        if (vertices.uvs.empty() && !extension["attributes"].has("TEXCOORD_0"))
-            vertices.uvs = uvs_of_primitive(file_, primitive, 0);
-        if (vertices.positions.empty())
-            extension.fail("has no POSITION; export the file again");
-        // Written values refer to these vertices.
-        if (count != vertices.count())
-            extension.fail(fmt::format("has {} vertices, but POSITION has {}; export the file again",
-                                       grouped(vertices.count()), grouped(count)));
-        vertices.corners.push_back(std::move(draco.indices));
-        return vertices;
-    }
-
-    std::vector<std::uint32_t> corners_of(const GltfValue& primitive, std::size_t vertex_count) {
-        std::vector<std::uint32_t> indices;
-        if (primitive.has("indices")) {
-            indices = GltfAccessor(file_, primitive["indices"].target(root_, "accessors"), 1, 1).indices();
-            const auto too_large = std::find_if(indices.begin(), indices.end(),
-                                                [&](std::uint32_t index) { return index >= vertex_count; });
-            if (too_large != indices.end())
-                primitive["indices"].fail(fmt::format("element {} is {}, but there are {} vertices; export the file "
-                                                      "again",
-                                                      grouped(static_cast<std::size_t>(too_large - indices.begin())),
-                                                      *too_large, grouped(vertex_count)));
-        } else {
-            indices.resize(vertex_count);
-            for (std::uint32_t i = 0; i < indices.size(); ++i)
-                indices[i] = i;
-        }
-        return as_triangles(std::move(indices), primitive.count_or("mode", triangles));
     }
 
     void add(std::size_t placement_number) {
         const GltfPlacement& placement = document_->placements[placement_number];
         skinned_ += placement.is_skinned;
-        for (const DecodedVertices& vertices : decoded(placement.mesh)) {
+        for (const GltfPrimitives& primitives : primitives_of(placement.mesh)) {
             const std::size_t first = mesh_.vertex_count();
-            document_->vertices.push_back({placement_number, vertices.primitives, first, vertices.count()});
-            add_vertices(vertices, placement.to_scene);
-            for (std::size_t i = 0; i < vertices.primitives.size(); ++i)
-                add_faces(vertices.corners[i], first, placement_number, vertices.primitives[i]);
+            document_->vertices.push_back({placement_number, primitives.numbers, first, primitives.count()});
+            // In parallel where that pays: neither part needs what the other adds.
+            constexpr std::size_t many = 10'000; // vertices
+            parallel_for(2, primitives.count() < many ? 2 : 1, [&](std::size_t begin, std::size_t end) {
+                if (begin == 0)
+                    add_vertices(primitives, placement.to_scene);
+                if (end == 2)
+                    for (std::size_t i = 0; i < primitives.numbers.size(); ++i)
+                        add_faces(primitives.corners[i], first, placement_number, primitives.numbers[i]);
+            });
         }
     }
 
-    void add_vertices(const DecodedVertices& vertices, const glm::dmat4& to_scene) {
-        const std::size_t first = mesh_.vertex_count(), count = vertices.count();
+    void add_vertices(const GltfPrimitives& vertices, const glm::dmat4& to_scene) {
+        const std::size_t first = mesh_.vertex_count();
         const glm::dmat3 linear(to_scene);
         // The cofactors transform normals also where the matrix is singular (Pharr, Jakob and Humphreys 2016).
         const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                    glm::cross(linear[0], linear[1]));
         const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
-        mesh_.positions.resize(first + count);
-        for (std::size_t v = 0; v < count; ++v) {
-            const float* p = vertices.positions.data() + 3 * v;
-            mesh_.positions[first + v] = linear * Vec3d(p[0], p[1], p[2]) + Vec3d(to_scene[3]);
-        }
-        if (!vertices.normals.empty()) {
-            mesh_.normals.resize(first, Vec3(0.0f));
-            for (std::size_t v = 0; v < count; ++v) {
-                const float* n = vertices.normals.data() + 3 * v;
-                mesh_.normals.push_back(unit_or_zero(side * (cofactors * Vec3d(n[0], n[1], n[2]))));
-            }
-        } else if (!mesh_.normals.empty()) {
-            mesh_.normals.resize(first + count, Vec3(0.0f));
-        }
-        if (!vertices.uvs.empty()) {
-            mesh_.vertex_uvs.resize(first, Vec2(0.0f));
-            mesh_.vertex_uvs.insert(mesh_.vertex_uvs.end(), vertices.uvs.begin(), vertices.uvs.end());
-        } else if (!mesh_.vertex_uvs.empty()) {
-            mesh_.vertex_uvs.resize(first + count, Vec2(0.0f));
-        }
-        if (!vertices.colors.empty()) {
-            mesh_.vertex_colors.resize(first, white);
-            const auto step = static_cast<std::size_t>(vertices.color_components);
-            for (std::size_t v = 0; v < count; ++v) {
-                const float* c = vertices.colors.data() + step * v;
-                mesh_.vertex_colors.push_back(srgb_color({c[0], c[1], c[2]}, step == 4 ? c[3] : 1.0f));
-            }
-        } else if (!mesh_.vertex_colors.empty()) {
-            mesh_.vertex_colors.resize(first + count, white);
-        }
+        add_values(mesh_.positions, first, vertices.positions, 3,
+                   [&](const float* p) { return linear * Vec3d(p[0], p[1], p[2]) + Vec3d(to_scene[3]); });
+        are_floats_ = are_floats_ && to_scene == glm::dmat4(1.0);
+        add_values(mesh_.normals, first, vertices.normals, 3,
+                   [&](const float* n) { return unit_or_zero(side * (cofactors * Vec3d(n[0], n[1], n[2]))); });
+        add_values(mesh_.vertex_uvs, first, vertices.uvs, 2, [](const float* uv) { return as_uv(uv); });
+        const auto step = static_cast<std::size_t>(vertices.color_components);
+        add_values(
+            mesh_.vertex_colors, first, vertices.colors, step,
+            [&](const float* c) {
+                return srgb_color({c[0], c[1], c[2]}, step == 4 ? c[3] : 1.0f);
+            },
+            white);
     }
 
-    void add_faces(const std::vector<std::uint32_t>& corners, std::size_t first_vertex, std::size_t placement_number,
+    /// Appends the values of vertices to those of the first `first` vertices. Either may lack them.
+    template <class T, class Convert>
+    void add_values(std::vector<T>& values, std::size_t first, const GltfArray<float>& floats, std::size_t components,
+                    const Convert& convert, const T& missing = T(0.0f)) {
+        if (floats.empty() && values.empty())
+            return;
+        if (values.empty())
+            reserve_huge(values, vertex_room_);
+        values.resize(first, missing);
+        std::vector<T> converted; // in the cache: fresh memory is written once
+        floats.for_each_block([&](std::span<const float> block) {
+            converted.clear();
+            for (std::size_t i = 0; i < block.size(); i += components)
+                converted.push_back(convert(block.data() + i));
+            values.insert(values.end(), converted.begin(), converted.end());
+        });
+        values.resize(mesh_.vertex_count(), missing);
+    }
+
+    void add_faces(const GltfArray<std::uint32_t>& corners, std::size_t first_vertex, std::size_t placement_number,
                    std::size_t primitive_number) {
         if (corners.empty())
             return;
         const GltfPlacement& placement = document_->placements[placement_number];
         const GltfValue primitive = mesh_value(placement.mesh)["primitives"][primitive_number];
         const std::size_t first_face = mesh_.face_count();
-        const bool mirrored = glm::determinant(glm::dmat3(placement.to_scene)) < 0.0;
-        const std::size_t first_corner = mesh_.corners.size();
-        mesh_.corners.resize(first_corner + corners.size());
-        std::uint32_t* to = mesh_.corners.data() + first_corner;
-        const std::array<std::size_t, 3> order{0, mirrored ? 2u : 1u, mirrored ? 1u : 2u};
-        for (std::size_t c = 0; c < corners.size(); c += 3)
-            for (const std::size_t k : order)
-                *to++ = static_cast<std::uint32_t>(first_vertex) + corners[c + k];
-        mesh_.face_begin.resize(first_face + 1 + corners.size() / 3);
-        for (std::size_t f = first_face + 1; f < mesh_.face_begin.size(); ++f)
-            mesh_.face_begin[f] = static_cast<std::uint32_t>(first_corner + 3 * (f - first_face));
+        add_triangles(corners, static_cast<std::uint32_t>(first_vertex),
+                      glm::determinant(glm::dmat3(placement.to_scene)) < 0.0);
         FaceGroup group{placement.names, static_cast<std::uint32_t>(first_face)};
         Color color = white;
         std::optional<std::size_t> material_number;
@@ -384,6 +249,23 @@ class GltfReader {
         }
     }
 
+    void add_triangles(const GltfArray<std::uint32_t>& corners, std::uint32_t first_vertex, bool mirrored) {
+        const std::size_t second = mirrored ? 2 : 1, third = mirrored ? 1 : 2;
+        corners.for_each_block([&](std::span<const std::uint32_t> block) {
+            const std::size_t first = mesh_.corners.size(), first_face = mesh_.face_begin.size();
+            mesh_.corners.resize(first + block.size());
+            std::uint32_t* const to = mesh_.corners.data() + first;
+            for (std::size_t c = 0; c < block.size(); c += 3) {
+                to[c] = first_vertex + block[c];
+                to[c + 1] = first_vertex + block[c + second];
+                to[c + 2] = first_vertex + block[c + third];
+            }
+            mesh_.face_begin.resize(first_face + block.size() / 3);
+            for (std::size_t f = 0; f < block.size() / 3; ++f)
+                mesh_.face_begin[first_face + f] = static_cast<std::uint32_t>(first + 3 * (f + 1));
+        });
+    }
+
     static Color base_color(const GltfValue& material) {
         const std::optional<GltfValue> pbr = material.find("pbrMetallicRoughness");
         const std::optional<GltfValue> factor = pbr ? pbr->find("baseColorFactor") : std::nullopt;
@@ -396,15 +278,23 @@ class GltfReader {
     /// Rounds coordinates to floats, which other formats store, so that a scene and its copy in such a format have the
     /// same coordinates.
     void round_to_floats() {
+        if (are_floats_)
+            return;
+        double largest = 0.0; // distance by which a vertex would move
+        for (const Vec3d& p : mesh_.positions)
+            if (const Vec3d rounded{Vec3(p)}; rounded != p && is_finite(p))
+                largest = std::max(largest, glm::distance(rounded, p));
         constexpr double tolerance = 1e-6; // of the diagonal
-        const double diagonal = mesh_.box().diagonal();
+        if (!(largest <= tolerance * mesh_.box().diagonal()))
+            return;
         // A separate array, because GCC 12 at -O3 drops the conversion to float and back in a loop that works in place.
-        const std::vector<Vec3> floats(mesh_.positions.begin(), mesh_.positions.end());
-        for (std::size_t v = 0; v < floats.size(); ++v)
-            if (is_finite(mesh_.positions[v]) &&
-                !(glm::distance(Vec3d(floats[v]), mesh_.positions[v]) <= tolerance * diagonal))
-                return;
-        mesh_.positions.assign(floats.begin(), floats.end());
+        constexpr std::size_t block = 4096;
+        for (std::size_t v = 0; v < mesh_.positions.size(); v += block) {
+            const auto first = mesh_.positions.begin() + static_cast<std::ptrdiff_t>(v);
+            const auto end = first + static_cast<std::ptrdiff_t>(std::min(block, mesh_.positions.size() - v));
+            const std::vector<Vec3> floats(first, end);
+            std::copy(floats.begin(), floats.end(), first);
+        }
     }
 
     void warn() {
@@ -446,28 +336,14 @@ class GltfReader {
     GltfFile& file_;
     GltfValue root_;
     Mesh mesh_;
-    std::map<std::size_t, std::vector<DecodedVertices>> decoded_; ///< by mesh
+    std::size_t vertex_room_ = 0;
+    std::map<std::size_t, std::size_t> uses_;                       ///< placements of each mesh that are still to come
+    std::map<std::size_t, std::vector<GltfPrimitives>> primitives_; ///< by mesh
+    bool are_floats_ = true;                                        ///< no vertex was moved from its place in the file
     std::size_t left_out_ = 0, skinned_ = 0;
     std::set<std::string> morphed_;
 };
 
-}
-
-std::vector<Vec2> uvs_of_primitive(GltfFile& file, const GltfValue& primitive, std::size_t set) {
-    const std::string name = fmt::format("TEXCOORD_{}", set);
-    if (const std::optional<GltfValue> draco = draco_of(primitive); draco && (*draco)["attributes"].has(name.c_str())) {
-        DracoMesh decoded = decode_draco(file, *draco);
-        return as_uvs(take_attribute(decoded, *draco, name, 2, 2));
-    }
-    const std::optional<GltfValue> value = accessor_of(file.root(), primitive, name.c_str());
-    if (!value)
-        return {};
-    const GltfAccessor accessor(file, *value, 2, 2);
-    const std::size_t count = count_of_accessor(*accessor_of(file.root(), primitive, "POSITION"));
-    if (accessor.count() != count)
-        value->fail(fmt::format("{} has {} elements, but POSITION has {}; export the file again", name,
-                                grouped(accessor.count()), grouped(count)));
-    return as_uvs(accessor.floats());
 }
 
 Mesh read_gltf(const FileBytes& file) {

@@ -85,7 +85,7 @@ std::vector<glm::dmat4> instances_of(GltfFile& file, const GltfValue& attributes
             throw LimitError(fmt::format("{}: {}: {} instances are more than {}; split the scene",
                                          file.bytes().path().string(), index.place(), grouped(count),
                                          grouped(max_instances)));
-        values = accessor.floats();
+        values = accessor.floats().all();
     };
     read("TRANSLATION", 3, translations);
     read("ROTATION", 4, rotations);
@@ -250,8 +250,8 @@ class SceneReader {
         glm::dmat4 inverse(1.0);
         if (skin.has("inverseBindMatrices")) {
             const GltfValue accessor = skin["inverseBindMatrices"].target(root_, "accessors");
-            const std::string_view bytes = range_of_matrix(accessor["bufferView"].target(root_, "bufferViews"),
-                                                           accessor.count_or("byteOffset", 0));
+            const std::string bytes = bytes_of_matrix(accessor["bufferView"].target(root_, "bufferViews"),
+                                                      accessor.count_or("byteOffset", 0));
             std::array<float, 16> values{};
             std::memcpy(values.data(), bytes.data(), bytes.size());
             const std::vector<double> doubles(values.begin(), values.end());
@@ -261,12 +261,12 @@ class SceneReader {
         return is_finite(pose) ? pose : glm::dmat4(1.0);
     }
 
-    std::string_view range_of_matrix(const GltfValue& view, std::size_t offset) {
-        const std::string_view bytes = file_.view(view);
+    std::string bytes_of_matrix(const GltfValue& view, std::size_t offset) {
+        const FilePart bytes = file_.view(view);
         constexpr std::size_t size = 16 * sizeof(float);
         if (offset > bytes.size() || bytes.size() - offset < size)
             view.fail("is too short for a matrix; export the file again");
-        return bytes.substr(offset, size);
+        return bytes.part(offset, size).read();
     }
 
     GltfFile& file_;
