@@ -13,8 +13,8 @@ using Progress = std::function<void(double done)>;
 /// Thrown by cancelled work. Not a std::exception, so that error handlers do not catch it.
 struct Cancelled {};
 
-/// While this exists, the work of this thread throws Cancelled once `requested` is true: at the next block of
-/// parallel_for(), on any thread, or the next check_cancelled().
+/// While this object exists, setting `requested` cancels the work that this thread started. Cancelled is thrown at the
+/// next block of parallel_for() (whichever thread runs it) or at the next check_cancelled().
 class Cancellable {
   public:
     explicit Cancellable(const std::atomic<bool>* requested); ///< null: never cancelled
@@ -38,7 +38,7 @@ void parallel_for(std::size_t count, std::size_t grain,
 /// The number of threads that work on a parallel loop, at most one per core; ≥ 1.
 std::size_t thread_count();
 
-/// While this exists, at most `threads` threads work on parallel loops; 0 means one per core.
+/// While this object exists, at most `threads` threads work on parallel loops; 0 means one per core.
 class ThreadLimit {
   public:
     explicit ThreadLimit(unsigned threads);

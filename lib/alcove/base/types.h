@@ -59,9 +59,10 @@ Frame frame_of(const Box& box);
 struct Surfel {
     Vec3 position;
     Vec3 normal;
-    /// Sum of the unit normals of the other faces that it touches, each toward the side of the surfel's own faces.
+    /// The sum of the unit normals of the other faces that the surfel touches. Each normal points to the side of its
+    /// face on which the surfel's own faces lie.
     Vec3 away{0.0f};
-    bool covered = false; ///< other faces cover its own faces: nothing is visible
+    bool covered = false; ///< other faces cover the surfel's own faces: nothing is visible
 
     bool has_normal() const { return normal != Vec3(0.0f); }
     /// Where rays start: `height` above the surfel's own faces, and equally far from other faces that it touches.
@@ -104,8 +105,8 @@ struct Length {
     Length(const std::string& text);
     Length(const char* text) : Length(std::string(text)) {}
 
-    /// In unit space, where the diagonal is 1. \throw InputError for a length in voxels if `voxel` (unit space) is 0,
-    /// and for lengths that make no sense with that diagonal.
+    /// The length in unit space. `diagonal` is in scene units, `voxel` in unit space. \throw InputError for a length in
+    /// voxels if `voxel` is 0, and for a length less than 1e-12 or (if finite) more than 1e6 times the diagonal.
     float to_unit(double diagonal, float voxel = 0.0f) const;
 };
 

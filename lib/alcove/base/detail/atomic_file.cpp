@@ -73,7 +73,7 @@ bool check_target(const std::filesystem::path& target, struct stat& old) {
     return exists;
 }
 
-/// Waits until the file or folder is on the disk. Some file systems cannot do that.
+/// Waits until the file or folder is on the disk, if the file system supports that. \return false if this fails.
 bool sync(int descriptor) {
     return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }

@@ -39,8 +39,8 @@ class AtomicFile {
     int slot_ = -1;                         ///< index into the list of unfinished files
 };
 
-/// Removes the temporary files of all uncommitted files; for use when the process is about to end. Safe in a signal
-/// handler. Covers at most 32 files at a time.
+/// Removes the temporary file of every AtomicFile that is not committed. For use when the process is about to end. Safe
+/// in a signal handler. Covers at most 32 files at a time.
 void remove_unfinished_files() noexcept;
 
 }

@@ -7,7 +7,9 @@ namespace alcove {
 
 struct ClosestPoint {
     Vec3d offset; ///< from the closest point to the other
-    int feature;  ///< where it is: 0..2 a corner, 3..5 the edge from corner feature − 3 to the next, 6 the face
+    /// The part of the triangle on which the closest point lies: 0..2 a corner, 3..5 the edge from corner feature − 3
+    /// to the next one, 6 the face.
+    int feature;
 };
 inline constexpr int face_feature = 6;
 

@@ -33,11 +33,11 @@ bool less(const Position& a, const Position& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-/// A triangle in a form that its duplicates share.
+/// A triangle in a canonical form. Duplicates have equal forms.
 template <class Position>
 struct Form {
     std::array<Position, 3> corners; // sorted
-    bool turned;                     // the orientation, if it counts
+    bool turned;                     // the orientation; false if `duplicates` ignores it
     std::uint32_t triangle;
 
     Form(std::span<const Position> positions, const Triangle& t, Duplicates duplicates, std::uint32_t index)
@@ -73,7 +73,7 @@ std::vector<Triangle> without_duplicate_faces(std::span<const Position> position
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         while (end < order.size() && order[end].key == order[begin].key)
             ++end;
-        // Usually few triangles share a key, but a crafted file could make it many.
+        // Usually, few triangles share a key, but in a crafted file many could.
         std::vector<Form<Position>> group;
         for (std::size_t i = begin; i < end && end - begin > 1; ++i)
             group.emplace_back(positions, triangles[order[i].value], duplicates, order[i].value);

@@ -10,12 +10,12 @@ namespace alcove {
 
 /// Which triangles with the same three corners are duplicates of each other.
 enum class Duplicates {
-    of_either_side, ///< all: where both sides of a sheet are modelled, the first face decides the sign
+    of_either_side, ///< of any orientation: if both sides of a sheet are modelled, the first face decides the sign
     of_one_side,    ///< those of the same orientation
 };
 
-/// Keeps only the first of duplicate triangles, and preserves the order. Positions are compared exactly. Cost: about
-/// 50 ns per triangle. Defined for Vec3 and Vec3d.
+/// Keeps only the first triangle of each set of duplicates. Preserves the order. Positions are compared exactly. Cost:
+/// about 50 ns per triangle. Defined for Vec3 and Vec3d.
 template <class Position>
 std::vector<Triangle> without_duplicate_faces(std::span<const Position> positions, std::span<const Triangle> triangles,
                                               Duplicates duplicates = Duplicates::of_either_side);

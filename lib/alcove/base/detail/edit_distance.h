@@ -12,7 +12,7 @@ namespace alcove {
 /// (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The closest name at an edit distance of at most a third of the typed letters plus one; empty if there is none.
+/// The name with the smallest edit distance from `typed`; empty if that distance exceeds typed.size() / 3 + 1.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
 }

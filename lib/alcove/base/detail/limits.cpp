@@ -8,7 +8,7 @@
 namespace alcove {
 namespace {
 
-// Bytes; 0: the default.
+// In bytes; 0 stands for the default.
 std::atomic<double> memory{0.0}, reading{0.0};
 
 }

@@ -47,7 +47,7 @@ struct HugeAllocator : std::allocator<T> {
     }
 };
 
-/// For arrays that are written as they grow, or completely after resize().
+/// For arrays whose values are all written, either as the array grows or after resize().
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
 

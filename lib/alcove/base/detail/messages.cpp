@@ -35,7 +35,8 @@ std::size_t printable_length(std::string_view text) {
     return code >= smallest[length] && code <= 0x10ffff && !surrogate && !is_invisible(code) ? length : 0;
 }
 
-/// Moves the first character of `from` to `to`, or '?' for its first byte if that character must not be printed.
+/// Moves the first character of `from` to the end of `to`. If that character must not be printed, removes only its
+/// first byte and appends '?'.
 void move_character(std::string_view& from, std::string& to) {
     const std::size_t length = printable_length(from);
     to += length > 0 ? from.substr(0, length) : "?";

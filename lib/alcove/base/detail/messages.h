@@ -11,7 +11,7 @@ namespace alcove {
 /// a terminal.
 std::string in_one_line(std::string_view text);
 
-/// The same in quotes, truncated to 40 characters.
+/// The text as from in_one_line(), truncated to 40 characters, in quotes.
 std::string in_quotes(std::string_view text);
 
 /// 1234567 as "1,234,567".

@@ -5,7 +5,8 @@
 
 namespace alcove {
 
-/// The best of those that this processor supports and the code was compiled for, such as "AVX2". Chosen at run time.
+/// The name of the instruction set, such as "AVX2". At run time, the best set is chosen that the processor supports and
+/// for which the code was compiled.
 std::string simd_target();
 
 }
