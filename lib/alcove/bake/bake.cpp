@@ -27,9 +27,9 @@ namespace {
 
 /// A mesh and the data that all its targets share.
 struct PreparedMesh {
-    Mesh of_selection;               ///< has the faces that are baked or occlude, if there is a selection
+    Mesh of_selection;               ///< the faces that are baked or occlude; set if there is a selection
     const Mesh* whole;               ///< used if there is no selection
-    std::vector<Triangle> triangles; ///< that occlude
+    std::vector<Triangle> triangles; ///< those that occlude
     Frame frame;
     VoxelizeOptions voxelizing;
     float radius;
@@ -53,8 +53,8 @@ Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
     return unit_or_zero(sum);
 }
 
-/// Detects the grid of another mesh, or of the same mesh at another position: the vertices of faces are far from its
-/// surface.
+/// Detects a grid that belongs to another mesh, or to this mesh at another position: many vertices are then far from
+/// the surface of the grid.
 void check_distance(GridStack grid, const PreparedMesh& prepared, std::vector<std::string>& warnings) {
     grid.levels.resize(1);
     const LevelStack field(grid);

@@ -62,8 +62,9 @@ struct BakeOptions {
     std::optional<double> error{};
     /// A method of the catalog; if empty, the planner chooses one. Without `error`, the method runs with its defaults
     /// and `parameters`; with `error`, its number of rays or samples is chosen to meet it. By default, guided casts
-    /// more rays, up to 64, on meshes with few vertices, where a vertex has few neighbours to share rays with, and at
-    /// least 32 where the voxel is larger than half the radius, because the field does not help there.
+    /// more rays in two cases. On meshes with few vertices, where a vertex has few neighbours to share rays with, it
+    /// casts up to 64. If the voxel is larger than half the radius, it casts at least 32, because the field does not
+    /// help then.
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};
@@ -79,7 +80,7 @@ struct BakeOptions {
     NormalSource normals = NormalSource::automatic;
     SignChoice sign = SignChoice::automatic;
     /// Joins vertices within this distance of each other before the bake; finite and not in voxels. Closes gaps caused
-    /// by an exporter's rounding. Each vertex gets the values of the vertex that it became.
+    /// by an exporter's rounding. Each vertex gets the values of the vertex that it was joined into.
     std::optional<Length> weld{};
     /// The distance between the points of a mesh without faces: see PointOptions::point_size.
     std::optional<Length> point_size{};
@@ -105,8 +106,8 @@ struct BakeSeconds {
     double occlusion = 0.0; ///< the method itself, in all attempts of the planner
 };
 
-/// The level sets that a bake used; `levels` is 0 if it used none. For several parts, it has the largest voxel and the
-/// largest numbers of levels and bytes.
+/// The level sets that a bake used; `levels` is 0 if the bake used none. If several parts were baked, the summary has
+/// the largest voxel and the largest numbers of levels and bytes.
 struct GridSummary {
     double voxel = 0.0; ///< finest, scene units
     std::size_t levels = 0;
@@ -118,11 +119,11 @@ struct GridSummary {
 };
 
 struct Baked {
-    /// One entry per vertex or point, in input order; lengths in scene units. Empty for attributes that were not
-    /// requested. ChannelInfo::missing where there is no normal.
+    /// One entry per vertex or point, in input order; lengths in scene units. Attributes that were not requested are
+    /// empty. Entries without a normal are ChannelInfo::missing.
     ChannelValues values;
     ChannelSet attributes;
-    /// Empty, or 1 for each vertex of a face that BakeOptions::faces selects.
+    /// 1 for each vertex of a face that BakeOptions::faces selects, else 0. Empty without a selection.
     std::vector<std::uint8_t> selected;
 
     std::string method;         ///< including its number of rays or samples: "guided:3"
@@ -158,7 +159,7 @@ void check(const BakeOptions& options);
 /// should not have a `time_limit`, since it is checked with the CPU time of the whole process.
 /// Cost: at quality good, from 1 µs per vertex on dense scans to about 5 µs on small meshes, plus 50 to 100 ms for the
 /// pilot.
-/// \throw InputError as check(), if no face has an area, if the mesh lacks the normals that NormalSource::file
+/// \throw InputError like check(). Also if no face has an area, if the mesh lacks the normals that NormalSource::file
 /// requires, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
 /// exceed half of the memory, MemoryError if the system runs out of memory. TimeLimitError, see
 /// BakeOptions::time_limit. Any exception of BakeOptions::progress.
@@ -170,21 +171,21 @@ inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
 struct SurfacePoint {
     Vec3d position{0.0}; ///< scene units
     Vec3 normal{0.0f};   ///< any length; zero: the normal of the face
-    /// Index of the face that it lies on. Without one, the faces that it touches count as its own if their normals are
-    /// within 60° of its normal.
+    /// Index of the face that the point lies on. Without it, the faces that the point touches count as its own if their
+    /// normals are within 60° of `normal`.
     std::uint32_t face = no_face;
 };
 
-/// Bakes points on or near a mesh, as above. `normals`, `weld` and `self` have no effect. A point without a normal or
-/// with a non-finite position gets ChannelInfo::missing (ao = 1). \throw like above, and InputError for a face index that
-/// is out of range.
+/// Bakes points on or near a mesh, as bake() above bakes vertices. `normals`, `weld` and `self` have no effect. A point
+/// without a normal or with a non-finite position gets ChannelInfo::missing (ao = 1). \throw like bake() above, and
+/// InputError for a face index that is out of range.
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
 
 /// Splits faces where interpolating ao between vertices would be off by more than `error` (or the RMSE of `quality`),
-/// so that vertex values can represent ao: a floor of one quad under a box gets the shadow of the box. Edges are not
-/// split if they are at most 1/16 of the radius, or of a quarter of the diagonal if that is less. The result has at
-/// most a million faces, or four times as many as the mesh if that is more. All data of the mesh are interpolated as in
-/// tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
+/// so that vertex values can represent ao: a floor of one quad under a box gets the shadow of the box. An edge is not
+/// split if it is at most 1/16 of the radius, or 1/64 of the diagonal if the radius exceeds a quarter of the diagonal.
+/// The result has at most a million faces or four times as many as the mesh, whichever is more. All data of the mesh
+/// are interpolated as in tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
 ///
 /// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
 /// as bake() and tessellate().

@@ -5,9 +5,10 @@
 
 namespace alcove {
 
-/// Warnings about an RMSE that the pilot measured; none if it is small. Above 0.03: walls too thin for a grid that rays
-/// were traced through. Above 0.1: the most likely cause, thin walls or vertices on other faces; if it is neither,
-/// advice on the settings, unless there was an error to meet. Cost: a few rays for each of up to 4,096 surfels.
+/// Warnings about an RMSE that the pilot measured. Above 0.03, there is one if walls are too thin for a grid that rays
+/// were traced through. Above 0.1, if there was none, it names the most likely cause: thin walls, or vertices that
+/// touch other faces. If the cause is neither, it gives advice on the settings, unless there was an error to meet.
+/// Cost: a few rays for each of up to 4,096 surfels.
 std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const BakeTask& task, const Method& method,
                                    const Occluders& occluders);
 

@@ -17,9 +17,11 @@ class Deadline {
     /// Remaining wall-clock seconds, at least 0. \pre is_set()
     double left() const;
 
-    /// Returns options that reduce the work to a share of it, in (0, 1), such as "--rays 20"; empty if none does.
+    /// Returns options that reduce the work to the fraction `share`, in (0, 1), such as "--rays 20"; empty if no option
+    /// does.
     using Remedy = std::function<std::string(double share)>;
-    /// \throw TimeLimitError if `seconds` exceed `clearly_late` times the remaining time, since estimates are inexact.
+    /// \throw TimeLimitError if `seconds`, an estimate, exceeds `clearly_late` times the remaining time. The factor
+    /// allows for the inexactness of the estimate.
     void check(double seconds, const Remedy& remedy) const;
 
   private:

@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// Normals of the file that point away from the front of their faces make everything dark.
+/// Warns if normals of the file point away from the front of their faces, which makes everything dark.
 void warn_of_flipped_normals(const BakeTarget& target, std::vector<std::string>& warnings) {
     constexpr std::size_t most_faces = 4096;
     const std::size_t stride = std::max<std::size_t>(target.triangles.size() / most_faces, 1);
@@ -74,7 +74,7 @@ void warn_of_offset(const BakeTarget& target, std::vector<std::string>& warnings
             target.radius, offset / target.radius));
 }
 
-/// Lengths in percent of the diagonal make no sense if a few outlying faces determine the diagonal.
+/// Warns if a few outlying faces determine the diagonal: then lengths in percent of the diagonal make no sense.
 void warn_of_outliers(const BakeTarget& target, const Length& radius, std::vector<std::string>& warnings) {
     if (radius.unit != Length::Unit::diagonal)
         return;
@@ -100,7 +100,7 @@ std::vector<std::string> input_warnings(const BakeTarget& target, std::string_vi
             warn_of_hard_edges(target.mesh, warnings);
         }
     }
-    if (options.faces.empty()) // with a selection, most lack normals on purpose
+    if (options.faces.empty()) // with a selection, most surfels lack normals on purpose
         warn_of_missing_normals(target.surfels, name, warnings);
     warn_of_outliers(target, options.radius, warnings);
     warn_of_offset(target, warnings);

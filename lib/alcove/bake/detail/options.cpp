@@ -90,7 +90,7 @@ BakeTask task_of(const BakeOptions& options) {
             task.settings.parameters.emplace_back("seed", options.seed);
         check_settings(needed, task.settings);
     } else if (options.attributes.has(Channel::ao_short) || options.attributes.has(Channel::ao_long)) {
-        methods_for(find_method("exact"), options.attributes); // throws, naming the method that gives them
+        methods_for(find_method("exact"), options.attributes); // throws and names the method that gives them
     }
     return task;
 }

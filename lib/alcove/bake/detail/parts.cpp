@@ -15,7 +15,7 @@ namespace {
 
 constexpr float largest_voxel_of_part = 1.0f / 32.0f;
 
-/// The options of the whole, in the unit space of a part.
+/// The options of the whole mesh, converted to the unit space of a part.
 VoxelizeOptions options_of_part(const VoxelizeOptions& whole, float scale) {
     VoxelizeOptions options = whole;
     options.grid.radius *= scale;

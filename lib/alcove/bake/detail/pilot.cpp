@@ -14,8 +14,9 @@ namespace {
 constexpr std::uint32_t first_seed = 0x9d1f, second_seed = 0x51ab;
 constexpr std::size_t neighbours = 1024; // difficulty() compares neighbours among this many surfels on the Morton curve
 
-/// About `rays` rays per surfel. Up to four times the default, fewer surfels keep the total number of rays constant.
-/// Beyond that, the rays per surfel are doubled until they reach half of `rays`, since noise would hide the error.
+/// Options with about `rays` rays per surfel. Up to four times the default number of rays per surfel, the number of
+/// surfels is reduced so that the total number of rays stays constant. If `rays` is larger than that, the rays per
+/// surfel are doubled until they reach half of `rays`, because noise would hide the error; the total then grows.
 PilotOptions pilot_of(double rays) {
     constexpr int max_share = 4, max_rays = 4096;
     constexpr PilotOptions standard{};
@@ -28,7 +29,7 @@ PilotOptions pilot_of(double rays) {
     return options;
 }
 
-/// The RMSE with the noise of the reference removed.
+/// The RMSE without the noise of the reference: `square` is the mean squared error, `noise2` the variance of the noise.
 double without(double square, double noise2) {
     return std::sqrt(std::max(square - noise2, 0.0));
 }
@@ -36,8 +37,8 @@ double without(double square, double noise2) {
 }
 
 PilotOptions pilot_for(double error) {
-    constexpr double rays_at_one = 5.0; // for a noise of at most a quarter of the error
-    constexpr double loose = 0.04;      // a third is enough, as there is little noise to subtract
+    constexpr double rays_at_one = 5.0; // so that the noise is at most a quarter of the error
+    constexpr double loose = 0.04;      // from this error on, noise of a third is enough: little is subtracted
     constexpr PilotOptions standard{};
     return error >= loose ? PilotOptions{standard.surfels, standard.rays / 2} : pilot_of(rays_at_one / error);
 }
@@ -134,7 +135,7 @@ int Pilot::rays_for(double error, std::uint32_t seed) const {
     constexpr int max_attempts = 16;
     // Rare rays that differ between runs leave an error that no number of rays removes.
     constexpr double clearly_more = 1.5, hardly_less = 0.93;
-    constexpr int many_rays = 2048; // from there on, small steps would hide such an error
+    constexpr int many_rays = 2048; // from this number on, small steps would hide such an error
     int rays = 16, enough = most_rays, last_rays = most_rays;
     double last_rmse = 0.0;
     for (int attempt = 0; attempt < max_attempts && rays < enough; ++attempt) {

@@ -16,15 +16,15 @@ struct PilotOptions {
     int rays = 128;             ///< per surfel, even, >= 2
 };
 
-/// Large errors vary most between surfels, so they need many surfels; small errors are below the noise of few rays, so
-/// they need many rays per surfel.
-PilotOptions pilot_for(double error); ///< to measure errors of about that size, > 0
-PilotOptions pilot_beside(int rays);  ///< to measure a bake with that many rays per surfel; 0 if it traces none
+/// Choose the size of a pilot. Large errors vary most between surfels, so measuring them takes many surfels. Small
+/// errors are below the noise of few rays, so measuring them takes many rays per surfel.
+PilotOptions pilot_for(double error); ///< to measure errors of about `error`, > 0
+PilotOptions pilot_beside(int rays);  ///< to measure a bake with `rays` rays per surfel; 0 if it traces none
 
 /// A sample of surfels with their reference ao, from exact rays whose seeds differ from those of a bake. The difference
 /// between two halves of the rays gives the noise of the reference, which is subtracted from all errors. An RMSE at
-/// 4,096 surfels is accurate to about 3 % if the error is the same everywhere, and to 10 % if one surfel in a hundred
-/// has all of it. Const members are thread-safe.
+/// 4,096 surfels is accurate to about 3 % if the error is the same everywhere, and to 10 % if the whole error is at one
+/// surfel in a hundred. Const members are thread-safe.
 class Pilot {
   public:
     static constexpr int most_rays = 1 << 20;
@@ -35,7 +35,7 @@ class Pilot {
     /// `surface` occludes the surfels. The radius, in the unit of the surfels, may be infinite. Cost: `rays` rays per
     /// sampled surfel, about 50 ms.
     Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius, const PilotOptions& options = {});
-    /// The same for callers that have the spatial_order() of the surfels.
+    /// The same, for callers that already have `order`, the spatial_order() of the surfels.
     Pilot(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const RaySurface& surface,
           float radius, const PilotOptions& options);
 
@@ -44,10 +44,11 @@ class Pilot {
     /// of 16 exact rays and the RMS difference of ao between neighbours divided by √2. The neighbours are those among
     /// about a thousand surfels along the Morton curve.
     double difficulty() const { return difficulty_; }
-    /// The RMSE at all surfels of the constructor. `ao` has one value per surfel, in their order.
+    /// The RMSE of a bake of all surfels that were passed to the constructor. `ao` has one value per surfel, in their
+    /// order.
     double rmse(std::span<const float> ao) const;
-    /// The same for some of these surfels: `of` has the index of the surfel of each value. std::nullopt if the pilot
-    /// sampled none of them.
+    /// The RMSE of a bake of some of these surfels: `of` has, for each value, the index of its surfel. std::nullopt if
+    /// the pilot sampled none of them.
     std::optional<double> rmse(std::span<const float> ao, std::span<const std::uint32_t> of) const;
     /// The RMSE of a method that evaluates each surfel independently; `settings` include the radius. Cost: the method
     /// at the sampled surfels.
@@ -71,7 +72,7 @@ class Pilot {
     std::vector<Surfel> surfels_;
     std::vector<float> reference_;
     std::shared_ptr<const Labels> labels_;
-    double noise2_ = 0.0; ///< of the reference
+    double noise2_ = 0.0; ///< variance of the noise of the reference
     double difficulty_ = 0.0;
 };
 

@@ -14,14 +14,14 @@ namespace alcove {
 namespace {
 
 // Errors vary by a third between meshes, so the number of rays that meets an error varies by a factor of two or three.
-// If many rays are planned, a third of them is tried first: about half the time they suffice, or show that fewer rays
-// than planned do.
+// If many rays are planned, a third of them are tried first. About half the time, these are enough, or they show that
+// fewer rays than planned are enough.
 constexpr int share_of_first_trial = 3, min_rays_of_trial = 4;
 
 // Standard deviation of log(measured / expected error) on meshes that the table was not measured on.
 constexpr double spread = 0.3;
 
-// With Via::grid, exact is planned only if the field costs this many times as much, and also
+// With Via::grid, exact is planned only if the field costs this many times as much as exact, and also at least
 // PlanRequest::allowed_seconds more.
 constexpr double allowed_ratio = 1.5;
 
@@ -127,7 +127,7 @@ void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilo
         add(request, plan_of(row, row.samples, rmse_of(row)), row.seconds_per_surfel);
         if (!find_method(row.method).needs_mesh)
             continue;
-        // The ray count between two of the table whose expected error is slightly below the wanted one.
+        // A ray count between two of the table, chosen so that its expected error is slightly below the wanted one.
         if (i > 0 && same_series(rows[i - 1], row) && rmse_of(row) < target && target < rmse_of(rows[i - 1])) {
             const plan_table::Row& fewer = rows[i - 1];
             const double way = std::log(target / rmse_of(fewer)) / std::log(rmse_of(row) / rmse_of(fewer));
@@ -237,8 +237,8 @@ const Planner::Candidate& Planner::cheap_trial_before(const Candidate& planned) 
     return *trial;
 }
 
-/// A plan of the same method with a share of the rays, if `planned` takes many and the method has no measured error
-/// yet; else `planned`.
+/// A plan of the same method with fewer rays, if `planned` takes many rays and its method has no measured error yet;
+/// else `planned`.
 const Planner::Candidate& Planner::fewer_rays_before(const Candidate& planned) const {
     const int rays = planned.plan.choice.rays() / share_of_first_trial;
     if (planned.plan.largest_voxel == 0.0f || is_known(planned.plan.choice.method) || rays < min_rays_of_trial)

@@ -51,13 +51,13 @@ class Planner {
   public:
     Planner(const PlanRequest& request, const Pilot& pilot);
 
-    /// The cheapest untried plan that is expected to meet the error, or a trial before it. A trial is a plan that may
-    /// miss the error, but is so cheap that trying it saves time on average. Either its method has no measured error
-    /// yet, or the measured error suggests that the plan misses the target by at most a tenth. Where guided would need
-    /// many rays, the trial is guided with a third of them. \throw LimitError if no grid for the named method fits in
-    /// memory.
+    /// The cheapest untried plan that is expected to meet the error, or a trial to run before that plan. A trial is a
+    /// plan that may miss the error, but is so cheap that trying it saves time on average. Either the method of the
+    /// trial has no measured error yet, or the measured error suggests that the trial misses the target by at most a
+    /// tenth. Where guided would need many rays, the trial is guided with a third of them. \throw LimitError if no grid
+    /// for the named method fits in memory.
     Plan next() const;
-    /// The same without these trials: the plan that is most likely to end the search.
+    /// Like next(), but never a trial: the plan that is most likely to end the search.
     Plan expected() const;
     /// Whether no untried plan remains after this one.
     bool is_last(const Plan& plan) const;

@@ -8,7 +8,7 @@
 
 namespace alcove {
 
-/// Each has one entry per face.
+/// Flags of the selected faces. Each member has one entry per face.
 struct SelectedFaces {
     std::vector<std::uint8_t> baked, occluding;
 };

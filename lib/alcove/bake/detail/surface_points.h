@@ -10,7 +10,7 @@
 
 namespace alcove {
 
-/// Functions of a point's index, all thread-safe.
+/// Points to bake, computed from their index. All functions are thread-safe.
 struct SurfacePoints {
     std::size_t count;
     std::function<SurfacePoint(std::size_t)> point;
@@ -20,7 +20,7 @@ struct SurfacePoints {
     std::function<std::vector<SurfacePoint>(std::span<const float> ao)> more{};
 };
 
-/// As bake() of these points followed by those of `more`, which Baked::evaluated does not count.
+/// Like bake(), for `points` and then those that `more` returns. Baked::evaluated does not count those of `more`.
 Baked bake_points(const Mesh& mesh, const SurfacePoints& points, const BakeOptions& options);
 
 }

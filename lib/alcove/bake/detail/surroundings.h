@@ -32,9 +32,9 @@ class Surroundings {
     /// warnings.
     /// \throw like alcove::voxelize().
     void voxelize(double voxel, std::vector<std::string>& warnings);
-    /// Whether these grids fit in memory.
+    /// Whether the grids of the occluders fit in memory.
     bool fit() const;
-    std::size_t bytes() const; ///< memory of the grids
+    std::size_t bytes() const; ///< memory of the grids of the occluders
 
     /// The union of the fields of a grid stack and of the surroundings. \pre voxelize() was called
     AnyField field_around(const GridStack& stack, const Frame& frame) const;

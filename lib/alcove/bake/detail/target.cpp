@@ -66,8 +66,8 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::
     });
 }
 
-/// The same for a plan. Uses the planner's cost table, so it assumes a machine as fast as the one that the table was
-/// measured on.
+/// Refuses a plan that would clearly miss the deadline. Takes its time from the planner's cost table, so it assumes a
+/// machine as fast as the one that the table was measured on.
 void check_time(const Deadline& deadline, const Plan& plan, const PlanRequest& request, const Pilot& pilot) {
     deadline.check(plan.seconds / static_cast<double>(thread_count()), [&](double share) -> std::string {
         for (PlanRequest other = request; const double error : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1}) {
@@ -221,7 +221,7 @@ class TargetBake {
         result_.choice = choice;
     }
 
-    /// Whether interpolation pays off on a small sample.
+    /// Tests on a small sample whether interpolation pays off.
     bool pays(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
         constexpr std::size_t runs = 8, length = 2048;
         const std::vector<MethodRun> methods = runs_for(*plan.choice.method, settings_of(plan.choice), Channel::ao);
@@ -238,9 +238,9 @@ class TargetBake {
         return interpolated.has_value();
     }
 
-    /// Evaluates a plan at some of the surfels, see evaluate_interpolated(), and at all of them the attributes that it
-    /// cannot interpolate. Keeps the values if they meet the error. \return the RMSE; std::nullopt if too many surfels
-    /// would have to be evaluated.
+    /// Evaluates a plan at some of the surfels and interpolates the others, see evaluate_interpolated(). Attributes
+    /// that cannot be interpolated are evaluated at all surfels. Keeps the values if they meet the error. \return the
+    /// RMSE; std::nullopt if too many surfels would have to be evaluated.
     std::optional<double> interpolate(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
         const Method& method = *plan.choice.method;
         const Settings settings = settings_of(plan.choice);
@@ -278,7 +278,7 @@ class TargetBake {
     }
 
     /// Interpolates most surfels if there are many, if this is expected to be faster than evaluating the plan at all of
-    /// them, and if the result meets the error. \return whether it did.
+    /// them, and if the result meets the error. \return whether the interpolated values were kept.
     bool bake_interpolated(const PlanRequest& request, const Pilot& pilot, double seconds_of_all) {
         constexpr double usual_share = 0.15, max_share = 0.4, clearly_faster = 0.8;
         constexpr double seconds_per_surfel = 1.2e-7; // of the interpolation, on the machine of the planner's table
@@ -367,9 +367,9 @@ class TargetBake {
     static constexpr std::size_t sample_stride = 8;
     static constexpr double sample_tolerance = 1.08; // the error of a sample is accurate to about a tenth
 
-    /// The error of a plan that uses the field on an eighth of the surfels, so that a plan that misses the target costs
-    /// little. The sample is runs along the Morton curve, since neighbours share rays. std::nullopt if there are few
-    /// surfels, or if the grid does not fit in memory.
+    /// The error, at an eighth of the surfels, of a plan that uses the field: a plan that misses the target then costs
+    /// little. The sample consists of runs along the Morton curve, since neighbours share rays. std::nullopt if there
+    /// are few surfels, or if the grid does not fit in memory.
     std::optional<double> rmse_on_sample(const Plan& plan, bool has_grid) {
         constexpr std::size_t many_surfels = 100'000, runs = 64, stride = sample_stride;
         if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
