@@ -123,7 +123,8 @@ std::size_t boundary_edges_as_indexed(const Mesh& mesh) {
     return count;
 }
 
-/// Counts non-manifold vertices and boundary loops. Corners of a vertex whose faces share an edge there form a fan.
+/// Counts non-manifold vertices and boundary loops. Two corners at a vertex belong to the same fan if their faces share
+/// an edge there.
 void examine_fans(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
     const SoundFaces& faces = surface.faces;
     DisjointSets fans(faces.corners.size());

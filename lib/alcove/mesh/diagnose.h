@@ -56,7 +56,7 @@ Closedness closedness(const Mesh& mesh);
 /// The complete diagnosis. Accepts any Mesh; thread-safe. Cost: about 0.3 µs per triangle.
 Diagnosis diagnose(const Mesh& mesh);
 
-/// Describes what matters for a bake, and how to fix it, one line each; a single line for a sound mesh.
+/// Describes the defects that matter for a bake and how to fix them, one line each. A sound mesh gets a single line.
 std::vector<std::string> describe(const Diagnosis& diagnosis);
 
 }

@@ -22,31 +22,32 @@ namespace alcove {
 ///    above 1, or up to 65535 if one is above 255. Without faces, `tristrips` become triangles.
 ///  - OBJ: `source` keeps the text. Texture coordinates become `vertex_uvs` if the corners of each vertex agree,
 ///    otherwise `corner_uvs`. A vertex with several normals gets the normalized sum of the distinct ones. v x y z r g b
-///    become colours, which range up to 1, or up to 255 if one is above 1; else the `#MRGB` comments of ZBrush do.
-///    Texture coordinates and normals that are damaged, and references to missing ones, are left out and counted.
+///    become colours, which range up to 1, or up to 255 if one is above 1. Without these, the `#MRGB` comments of
+///    ZBrush become colours. Texture coordinates and normals that are damaged, and references to missing ones, are left
+///    out and counted.
 ///  - OFF: [ST][C][N][4][n]OFF, ascii or BINARY, optionally with comments and without keyword or edge count. Vertices
 ///    of 4OFF are divided by w. Colours range up to 255, or up to 1 if one has a fraction or none is above 1. Normals,
 ///    colours and texture coordinates are read in the order that fits the numbers best.
 ///  - STL: ascii and binary. Corners with equal coordinates are joined (-0 equals 0), in the order of their first
 ///    appearance. Facet normals are ignored, as the corners determine them. The 15-bit colours of VisCAM and Magics
 ///    become `face_colors`. A binary count of 0 or -1 means as many facets as the file has room for.
-///  - glTF 2.0: .glb, or .gltf with its buffers; the meshes of the default scene in its coordinates, instance by
-///    instance, rounded to floats if that moves no vertex by more than 1e-6 of the diagonal. Skinned meshes are in
-///    their bind pose, morph targets are ignored. KHR_mesh_quantization, EXT_meshopt_compression,
-///    KHR_draco_mesh_compression and EXT_mesh_gpu_instancing are read. `groups` have the names of nodes, meshes and
-///    materials. TEXCOORD_0 becomes `vertex_uvs`, COLOR_0 `vertex_colors`, and the base colours of materials become
-///    `face_colors`.
+///  - glTF 2.0: .glb, or .gltf with its buffers; the meshes of the default scene, instance by instance, in the
+///    coordinates of the scene. Coordinates are rounded to floats if that moves no vertex by more than 1e-6 of the
+///    diagonal. Skinned meshes are in their bind pose, morph targets are ignored. KHR_mesh_quantization,
+///    EXT_meshopt_compression, KHR_draco_mesh_compression and EXT_mesh_gpu_instancing are read. `groups` have the names
+///    of nodes, meshes and materials. TEXCOORD_0 becomes `vertex_uvs`, COLOR_0 `vertex_colors`, and the base colours of
+///    materials become `face_colors`.
 ///
 /// Thread-safe. Cost: linear, about 0.2 µs per triangle for text and 0.1 µs for binary PLY; the file and the mesh
 /// are in memory at the same time. The data of a .glb of more than 1 MB stays on the disk, and is read again when the
 /// mesh is written: the file must not be changed until then, but may be replaced.
 ///
-/// \throw InputError with the file, the line or byte and a fix: it cannot be read, unknown format, text in UTF-16,
-///        damaged header, counts larger than the rest of the file, an index out of range, a token that is not a number,
-///        an early end, no faces at all, vertices farther apart than the largest double or closer together than the
-///        smallest normal one.
-/// \throw LimitError if it is larger than 4 GB or a quarter of the memory, or has 2^32 vertices or corners.
-/// \throw MemoryError if the system has too little memory for it.
+/// \throw InputError, which names the file, the line or byte, and a fix. Reasons: an unreadable file, an unknown
+///        format, text in UTF-16, a damaged header, counts larger than the rest of the file, an index out of range, a
+///        token that is not a number, an early end, no faces at all, vertices farther apart than the largest double or
+///        closer together than the smallest normal one.
+/// \throw LimitError if the file is larger than 4 GB or a quarter of the memory, or has 2^32 vertices or corners.
+/// \throw MemoryError if the system has too little memory for the mesh.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// One opaque grey per value in [0, 1], rounded to the nearest byte; other values are clamped.
@@ -58,12 +59,12 @@ bool can_write_mesh(const std::filesystem::path& file);
 
 /// Writes to a temporary file in the same folder and renames it, so that a failure leaves the old file unchanged.
 ///
-/// PLY: binary little endian. Writes all elements, properties and comments of a PLY input, byte for byte if that
-/// was binary little endian too, then the added attributes as float vertex properties in the order in which they
-/// were added (a property of the same name is replaced in place). Their name is NAME, or NAME_x NAME_y NAME_z for
-/// three components, and bent_x bent_y bent_z for `bent_normal`. `added_colors` become uchar red green blue alpha.
-/// Each of `added_comments` replaces the comments of the file that begin with the same word. For other inputs,
-/// coordinates are float, or double if float would move a vertex by more than 1e-6 of the diagonal.
+/// PLY: binary little endian. Writes all elements, properties and comments of a PLY input, byte for byte if the input
+/// was binary little endian too, then the added attributes as float vertex properties in the order in which they were
+/// added (a property of the same name is replaced in place). Their name is NAME, or NAME_x NAME_y NAME_z for three
+/// components, and bent_x bent_y bent_z for `bent_normal`. `added_colors` become uchar red green blue alpha. Each of
+/// `added_comments` replaces the comments of the file that begin with the same word. For other inputs, coordinates are
+/// float, or double if float would move a vertex by more than 1e-6 of the diagonal.
 ///
 /// OBJ: writes the text of an OBJ input. `added_colors` replace whatever follows x y z on the `v` lines, including a
 /// fourth coordinate. In another folder, relative paths of other files (mtllib, maplib, shadow_obj, trace_obj) are
@@ -82,8 +83,8 @@ bool can_write_mesh(const std::filesystem::path& file);
 ///
 /// \return what the format could not store, which paths changed, and which values attributes replaced, except those
 /// that an earlier run made according to a comment in the file. One message each; empty if there are none.
-/// \throw InputError for another extension, with the ones that work, or if a large .glb has changed since it was read;
-/// IoError if the file cannot be written.
+/// \throw InputError for an unknown extension (the message lists the known ones), or if a large .glb has changed since it
+/// was read; IoError if the file cannot be written.
 std::vector<std::string> write_mesh(const Mesh& mesh, const std::filesystem::path& file);
 
 }

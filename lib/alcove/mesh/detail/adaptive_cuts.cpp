@@ -124,7 +124,7 @@ class AdaptiveCuts {
     }
 
     /// Adds a point with weights for the ends of a side and the opposite corner. `edge` is cut if the predicate returns
-    /// true for it.
+    /// true for the point.
     void add_point(const Piece& piece, std::size_t side, const Vec3d& weights, const Vec3d& area, Edge& edge) {
         const std::array<std::size_t, 3> corners{side, (side + 1) % 3, weights[2] == 0.0 ? side : (side + 2) % 3};
         PointBetween point{Vec3d(0.0), Vec3(0.0f), piece.face, {}, weights};
@@ -180,8 +180,8 @@ class AdaptiveCuts {
         return found != edges_.end() && found->second.marked ? &found->second : nullptr;
     }
 
-    /// Marks the longest side of each piece with a marked side. Cutting that first keeps the angles bounded from below
-    /// (Rivara 1984).
+    /// Marks the longest side of each piece that has a marked side. Cutting the longest side first keeps the angles
+    /// bounded from below (Rivara 1984).
     void mark_longest() {
         at_marked_.assign(bisection_.positions().size(), false);
         for (const Edge* edge : marked_)

@@ -58,7 +58,7 @@ std::array<T, 3> from_side(const std::array<T, 3>& values, std::size_t side) {
     return {values[side], values[(side + 1) % 3], values[(side + 2) % 3]};
 }
 
-/// The number of triangles that a triangle is cut into; stops above `most`.
+/// The number of triangles that a triangle is cut into. Stops counting above `most`.
 std::size_t count_pieces(const std::array<Vec3d, 3>& corners, double scale, double length, std::size_t most) {
     std::vector<std::array<Vec3d, 3>> todo{corners};
     std::size_t count = 0;
@@ -88,7 +88,7 @@ Bisection::Bisection(const Mesh& mesh, double length)
     add_pieces(larger);
 }
 
-/// Triangulates a mesh with one vertex per corner, as the triangles must refer to corners.
+/// Triangulates a copy of the faces that has one vertex per corner, because pieces must refer to corners.
 void Bisection::add_pieces(const std::vector<std::uint32_t>& faces) {
     Mesh apart;
     std::vector<std::uint32_t> corner_of, face_of;

@@ -42,7 +42,8 @@ auto blended(const Vec3d& weights, ValueAt&& value_at) {
 
 class Bisection {
   public:
-    /// Triangulates the faces with a side longer than `length` or a corner farther than twice that from the first one.
+    /// Triangulates the faces that have a side longer than `length`, or a corner farther than 2 × `length` from the
+    /// first.
     /// \throw InputError if the mesh has infinite extent.
     Bisection(const Mesh& mesh, double length);
 
@@ -57,13 +58,13 @@ class Bisection {
     double longest_side() const;
     double scale() const { return scale_; } ///< prevents overflow and underflow of squared lengths
 
-    /// Whether a side is longer than `length` and its midpoint differs from its ends, despite rounding.
+    /// Whether a side is longer than `length` and its midpoint, after rounding, differs from its ends.
     bool can_cut(std::uint32_t a, std::uint32_t b, double length) const;
-    double squared_length(std::uint32_t a, std::uint32_t b) const; ///< of the scaled mesh
+    double squared_length(std::uint32_t a, std::uint32_t b) const; ///< in the scaled mesh
     void cut_longer_than(double length);
 
-    /// Bisects each piece at the side that `choose(piece)` returns, and the halves likewise, until it returns none.
-    /// Side i is between the vertices i and (i + 1) % 3.
+    /// Bisects each piece at the side that `choose(piece)` returns, then the halves in the same way, until it returns
+    /// none. Side i is between the vertices i and (i + 1) % 3.
     template <class Choose>
     void cut(Choose&& choose) {
         std::vector<Piece> done, todo;

@@ -1,4 +1,4 @@
-/// The corners of an outline in a tree of boxes, to find those in a triangle.
+/// Finds the corners of an outline that lie in a triangle, with a tree of boxes.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -25,10 +25,10 @@ inline bool turns_left(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec
     return turn(a, b, c) > rounding * lengths;
 }
 
-/// Reuses its buffers.
+/// A tree of the corners of an outline. Reuses its buffers.
 class CornerTree {
   public:
-    /// Takes the corners whose `is_member` is true.
+    /// Builds the tree of those corners whose `is_member` is true.
     void build(std::span<const glm::dvec2> outline, const std::vector<char>& is_member);
     void remove(std::size_t corner);
     bool has(std::size_t corner) const { return slots_[corner] != none; }
@@ -59,7 +59,7 @@ class CornerTree {
     Bounds bounds_of_children(std::size_t node) const;
     static bool overlaps(const Bounds& bounds, const std::array<glm::dvec2, 3>& triangle);
 
-    glm::dvec2 axis_{1.0, 0.0};        ///< of the boxes
+    glm::dvec2 axis_{1.0, 0.0};        ///< direction of a side of the boxes
     std::vector<Member> members_;      ///< ordered so that nearby members are close in the array
     std::vector<std::uint32_t> slots_; ///< for each corner, its index in `members_`, or `none`
     std::size_t first_leaf_ = 1;       ///< a power of two

@@ -15,8 +15,8 @@ namespace alcove {
 class EarClipper {
   public:
     /// Triangulates a counterclockwise outline with an extent of about 1. Returns triangles of corner indices, two
-    /// fewer than the outline has corners. Where the outline crosses itself, some of them overlap. Valid until the next
-    /// call.
+    /// fewer than the outline has corners. Where the outline crosses itself, some triangles overlap. The result is
+    /// valid until the next call.
     std::span<const std::array<std::uint32_t, 3>> clip(std::span<const glm::dvec2> outline);
 
   private:

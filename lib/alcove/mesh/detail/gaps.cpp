@@ -14,15 +14,17 @@
 namespace alcove {
 namespace {
 
-/// The vertices on open edges, compared by index, and the sides of triangles between them.
+/// The vertices on open edges, and the sides of triangles between these vertices. An edge counts as open if only one
+/// triangle uses the indices of its ends.
 struct Rim {
     std::vector<std::uint32_t> vertices; ///< in order
     std::vector<Vec3d> positions;
     std::vector<std::array<std::uint32_t, 2>> sides; ///< indices of `vertices`
 };
 
-/// At a vertex inside the surface, the sides that leave it end at the same vertices at which the sides that enter it
-/// start, so the sums of their hashes cancel.
+/// One sum per vertex, which is not 0 for a vertex on an open edge. At a vertex inside the surface, the sides that
+/// leave the vertex end at the same vertices at which the sides that enter it start, so the sums of their hashes
+/// cancel.
 std::vector<std::uint64_t> unbalanced_sums(std::size_t vertices, std::span<const Triangle> triangles) {
     const auto hash = [](std::uint64_t v) { // finalizer of MurmurHash3 (Appleby 2011)
         v = (v + 1) * 0x9e3779b97f4a7c15ULL;
@@ -58,7 +60,7 @@ Rim rim_of(const Mesh& mesh, std::span<const Triangle> triangles) {
     return rim;
 }
 
-/// The number of edges that only one triangle uses, plus that of sides without length, once vertices are joined.
+/// Counts, after vertices are joined, the edges that only one triangle uses and the sides whose two ends were joined.
 std::size_t open_edges(const Rim& rim, std::span<const std::uint32_t> joined) {
     const std::uint64_t count = rim.vertices.size();
     HugeVector<Keyed<std::uint64_t>> edges;

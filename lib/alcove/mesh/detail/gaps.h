@@ -8,11 +8,11 @@
 namespace alcove {
 
 struct Gaps {
-    /// Each vertex at exactly the position of an earlier vertex of an open edge, with the first vertex there.
+    /// Pairs of vertices of open edges at exactly the same position: each repeated vertex, and the first vertex there.
     std::vector<std::array<std::uint32_t, 2>> repeated;
-    /// Edges that stay open when coincident vertices are joined, but close when nearby ones are.
+    /// Edges that stay open when coincident vertices are joined, but close when vertices within `distance` are joined.
     std::size_t closable = 0;
-    double distance = 0.0; ///< how near, scene units
+    double distance = 0.0; ///< scene units
 
     /// What to do about the closable edges, in one line; empty if there are none.
     std::string advice() const;

@@ -37,7 +37,7 @@ Box trimmed(const std::vector<Box>& boxes, std::size_t few) {
     return result;
 }
 
-/// At most this many of the faces that reach furthest count as outliers.
+/// The largest number of faces that may count as outliers.
 std::size_t few_of(std::size_t faces) {
     constexpr std::size_t min_few = 2, one_in = 100;
     return std::max(min_few, faces / one_in);

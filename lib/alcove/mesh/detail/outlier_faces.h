@@ -14,7 +14,7 @@ struct OutlierFaces {
     std::size_t example; ///< one of them
     Box rest;            ///< bounding box of all other faces
 
-    /// Such as "2 of 5,000 faces, such as face 17, make the diagonal of the bounding box 900 instead of 1.7".
+    /// A message: "2 of 5,000 faces, such as face 17, make the diagonal of the bounding box 900 instead of 1.7".
     std::string text(const Mesh& mesh) const;
 };
 

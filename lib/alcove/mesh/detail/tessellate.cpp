@@ -31,8 +31,8 @@ std::size_t face_limit(const Mesh& mesh, std::size_t most_faces) {
     return std::min(most_faces, mesh.face_count() + corners_left / 3);
 }
 
-/// The smallest length, within 1 %, whose cuts give at most that many faces; if there is none, a length that causes no
-/// cuts.
+/// The smallest length, to within 1 %, for which cutting all longer edges gives at most `most_faces` faces. If there is
+/// none, a length that causes no cuts.
 double length_that_fits(const Bisection& bisection, double wanted, std::size_t most_faces) {
     const double longest = bisection.longest_side();
     if (longest <= wanted || bisection.count_faces(wanted, most_faces) <= most_faces)

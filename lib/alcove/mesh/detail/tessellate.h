@@ -28,8 +28,8 @@ struct TessellateOptions {
 /// Normals, texture coordinates, colours and attributes are interpolated, corner_uvs per corner; face colours are
 /// copied. If the mesh was read from a PLY file, its other properties are also kept: numbers of vertices are
 /// interpolated and rounded to the type of the property, lists of vertices are taken from the nearest vertex, and
-/// properties of faces are copied. Lines of an OBJ file that a Mesh does not represent are lost. A mesh without a
-/// split is not changed.
+/// properties of faces are copied. Lines of an OBJ file that a Mesh does not represent are lost. A mesh in which
+/// nothing is split is not changed.
 ///
 /// \return the mesh, with additional warnings about lost data and about edges left long because of `most_faces`.
 /// \throw InputError if the length is negative or NaN, or the mesh has infinite extent.
@@ -64,10 +64,10 @@ struct AdaptiveTessellateOptions {
 ///
 /// An edge is split if `split` returns true for one of its points. The longest edge of a face is split if `split`
 /// returns true for a point inside the face, and whenever another edge of the face is split, so that angles are bounded
-/// from below. Each edge and face is tested once. Everything else is as above.
+/// from below. Each edge and face is tested once. Everything else is as in the overload above.
 ///
-/// \throw InputError as above; std::invalid_argument if the predicate does not return one value per point; any
-/// exception of the predicate. Cost: about 3 µs per new face, in addition to the predicate; single-threaded.
+/// \throw InputError as in that overload; std::invalid_argument if the predicate does not return one value per point;
+/// any exception of the predicate. Cost: about 3 µs per new face, in addition to the predicate; single-threaded.
 Mesh tessellate(const Mesh& mesh, const SplitPredicate& split, const AdaptiveTessellateOptions& options);
 
 }

@@ -11,8 +11,8 @@ namespace alcove {
 /// read_mesh() of a file in memory.
 Mesh read_bytes(const FileBytes& file);
 
-// Each throws InputError for damaged files. If there are no faces, but no line of the file says so, read_bytes()
-// refuses the mesh.
+// Each reader throws InputError for damaged files. A mesh without faces is refused by the reader if a line of the file
+// says that there are none, otherwise by read_bytes().
 Mesh read_ply(const FileBytes& file);
 Mesh read_obj(const FileBytes& file);
 Mesh read_off(const FileBytes& file);
@@ -29,7 +29,7 @@ bool begins_as_gltf(const FileBytes& file);
 /// other file.
 std::size_t head_of_glb(std::string_view first_bytes);
 
-// Each returns the messages of write_mesh() and throws IoError.
+// Each writer returns the messages of write_mesh() and throws IoError.
 std::vector<std::string> write_ply(const Mesh& mesh, const std::filesystem::path& file);
 std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path& file);
 std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file);

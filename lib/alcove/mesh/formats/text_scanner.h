@@ -16,7 +16,7 @@
 namespace alcove {
 
 struct TextSyntax {
-    char comment = '\0';       ///< starts a comment at the start of a token; the comment ends the line
+    char comment = '\0';       ///< where a token may start, begins a comment up to the end of the line
     bool continuation = false; ///< a backslash at the end of a line joins the next one to it
     /// A comment also begins after the last digit of a number, as some programs write it, but not after a point:
     /// "1.#IND".
@@ -26,7 +26,7 @@ inline constexpr TextSyntax off_syntax{'#', false, true};
 inline constexpr TextSyntax obj_syntax{'#', true};
 
 /// The value of a token that old run-time libraries print for infinity or NaN: "1.#INF00", "-1.#IND", "1.#QNAN0e+000",
-/// or rounded like digits "1.#J" and "1.$"; also "∞". std::nullopt for other tokens.
+/// or, if rounded like digits, "1.#J" and "1.$"; also "∞". std::nullopt for other tokens.
 std::optional<double> non_finite_number(std::string_view token);
 
 /// Reads a text token by token. Tokens are separated by blanks and line ends (LF, CRLF, CR). Skips a byte-order mark

@@ -15,8 +15,8 @@ namespace alcove {
 /// An element of `accessors`, checked against its buffer view.
 class GltfAccessor {
   public:
-    /// \throw InputError if it is damaged or does not fit its buffer view, or if its number of components is not from
-    /// `least` to `most`.
+    /// \throw InputError if the accessor is damaged or does not fit its buffer view, or if its number of components is
+    /// not from `least_components` to `most_components`.
     GltfAccessor(GltfFile& file, const GltfValue& accessor, int least_components, int most_components);
 
     std::size_t count() const { return count_; }

@@ -49,7 +49,7 @@ class GltfFile {
     bool is_binary_ = false, has_binary_chunk_ = false;
     std::string_view json_text_;
     FilePart binary_chunk_, other_chunks_;
-    std::recursive_mutex mutex_;             ///< of the members below, which are filled at their first use
+    std::recursive_mutex mutex_;             ///< protects the members below, which are filled at their first use
     std::map<std::string, FileBytes> files_; ///< contents of URIs: files by URI, data URIs by place in the JSON
     std::map<std::string, std::string> decompressed_;
     double decompressed_bytes_ = 0.0;

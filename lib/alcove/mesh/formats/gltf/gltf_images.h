@@ -17,8 +17,8 @@ struct GltfImage {
 /// KHR_texture_transform moves it.
 std::optional<std::size_t> metallic_roughness_uv_set(const GltfFile& file, std::size_t material);
 
-/// The image of that texture. \throw InputError if it is missing, or is there only in a format that a glTF extension
-/// defines.
+/// The image of the metallic-roughness texture of a material. \throw InputError if the image is missing, or exists only
+/// in a format that a glTF extension defines.
 GltfImage metallic_roughness_image(GltfFile& file, std::size_t material);
 
 }

@@ -229,7 +229,7 @@ void GltfOutput::replace_png(std::size_t number, std::string_view bytes) {
         {{"buffer", buffer_}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}});
 }
 
-/// Removes from the buffer the bytes of a view that nothing else needs, and moves the bytes that follow.
+/// Removes the bytes of a view from the buffer, unless other data overlap them, and moves the bytes that follow.
 void GltfOutput::take_out(std::size_t number) {
     struct Range {
         Json* place; // of the offset

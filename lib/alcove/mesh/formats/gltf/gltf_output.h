@@ -13,25 +13,26 @@
 
 namespace alcove {
 
-/// The number of times that a key has that value in JSON.
+/// The number of times that `key` has the value `value` anywhere in `json`.
 std::size_t count_values(const Json& json, std::string_view key, const Json& value);
 
 class GltfOutput {
   public:
     /// An empty file.
     explicit GltfOutput(const std::filesystem::path& target);
-    /// A copy of a file. In a .glb, its first buffer becomes the binary chunk if it is the only one. In another folder,
-    /// buffers that are files become part of the output. `file` must outlive this. \throw like GltfFile::buffer().
+    /// A copy of a file. In a .glb, the first buffer becomes the binary chunk if it is the only buffer. If `target` is
+    /// in another folder, buffers that are files become part of the output. `file` must outlive this object.
+    /// \throw like GltfFile::buffer().
     GltfOutput(const std::filesystem::path& target, GltfFile& file);
 
     Json& json() { return json_; }
-    /// Each appends an accessor, and returns its index.
+    /// Each function appends an accessor and returns its index.
     std::size_t add_floats(std::span<const float> values, std::size_t components);
     std::size_t add_positions(std::span<const float> values); ///< with their bounds
     std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
     std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
     /// Replaces the values of an accessor if they are in an embedded buffer and nothing else uses their bytes, so that
-    /// files do not grow with each bake. \return whether it did.
+    /// files do not grow with each bake. \return whether the values were replaced.
     bool overwrite(std::size_t accessor, int component_type, std::string_view bytes);
     /// Appends a PNG with the other properties of `image`, and returns its index in `images`.
     std::size_t add_png(std::string_view bytes, Json image);
@@ -60,9 +61,9 @@ class GltfOutput {
     bool is_binary_, is_indented_ = false;
     Json json_;
     FilePart chunk_, other_chunks_; ///< of the file
-    std::size_t buffer_ = 0;        ///< the one that is appended to
-    bool in_chunk_;                 ///< whether that is the binary chunk
-    FilePart binary_;               ///< what the buffer already has
+    std::size_t buffer_ = 0;        ///< index of the buffer that new data is appended to
+    bool in_chunk_;                 ///< whether this buffer is the binary chunk
+    FilePart binary_;               ///< the contents that the buffer already has
     bool is_rewritten_ = false;     ///< whether binary_ is a copy
     std::string rewritten_;         ///< the copy
     std::string added_;             ///< after binary_, which is padded to a multiple of 4

@@ -183,7 +183,7 @@ class GltfReader {
     void add_vertices(const GltfPrimitives& vertices, const glm::dmat4& to_scene) {
         const std::size_t first = mesh_.vertex_count();
         const glm::dmat3 linear(to_scene);
-        // The cofactors transform normals also where the matrix is singular (Pharr, Jakob and Humphreys 2016).
+        // The cofactors transform normals even if the matrix is singular (Pharr, Jakob and Humphreys 2016).
         const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                    glm::cross(linear[0], linear[1]));
         const double side = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;

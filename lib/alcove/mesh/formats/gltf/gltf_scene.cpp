@@ -200,7 +200,7 @@ class SceneReader {
                 f((*children)[c].index(parents_.size()));
     }
 
-    /// Long names and deep trees would take memory for every instance.
+    /// The names for a placement. Limited in length and number, because they take memory for every instance.
     std::vector<std::string> names_of(std::size_t node, const GltfValue& mesh) const {
         constexpr std::size_t most_ancestors = 16;
         std::vector<std::string> names;
@@ -243,7 +243,8 @@ class SceneReader {
         }
     }
 
-    /// In the bind pose, all joints have the same product of their transform and inverse bind matrix.
+    /// The transform of a skinned mesh in its bind pose. In this pose, the product of transform and inverse bind matrix
+    /// is the same for all joints, so the first joint is enough.
     glm::dmat4 bind_pose(const GltfValue& skin) {
         const GltfValue joints = skin["joints"];
         const std::size_t joint = joints[0].index(parents_.size());

@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char *pbr = "pbrMetallicRoughness", *metallic_roughness = "metallicRoughnessTexture";
 
-/// The index of the new texture in `textures`. `texture` and `image` hold their properties other than the image itself.
+/// Appends a texture. `texture` and `image` hold the properties of both, except the image data. \return the index of
+/// the texture in `textures`.
 std::size_t append(GltfOutput& output, const GltfTexture& added, Json texture, Json image) {
     add_comments(image, {&added.comment, added.comment.empty() ? 0u : 1u});
     texture["source"] = output.add_png(added.png, std::move(image));
@@ -55,10 +56,11 @@ bool has_number(const Json& json, std::size_t number) {
     return std::any_of(json.begin(), json.end(), [&](const Json& element) { return has_number(element, number); });
 }
 
-/// Whether the image of a texture can be replaced: `uses` is the number of references to it that are replaced, too.
+/// Whether the image of a texture can be replaced: `uses` is the number of references to the texture that will be
+/// replaced with it.
 bool is_replaceable(const Json& json, std::size_t number, std::size_t uses) {
     const Json& texture = json["textures"].at(number);
-    if (!texture.contains("source") || texture.contains("extensions")) // these may have another image
+    if (!texture.contains("source") || texture.contains("extensions")) // an extension may name another image
         return false;
     // Extensions of the file may refer to textures and images by keys of their own.
     const auto is_used_by_extensions = [&](std::size_t index) {
@@ -89,7 +91,7 @@ void replace(GltfOutput& output, const GltfTexture& added, std::size_t number) {
     add_comments(output.json()["images"][image], {&added.comment, added.comment.empty() ? 0u : 1u});
 }
 
-/// \return the index of the texture, which is also the metallic-roughness texture of the material.
+/// Stores a texture that also replaces the metallic-roughness texture of the material. \return its index.
 std::size_t add_packed(GltfOutput& output, const GltfTexture& added, std::size_t material) {
     Json& json = output.json();
     const Json& own = json["materials"][material];
@@ -107,7 +109,7 @@ std::size_t add_packed(GltfOutput& output, const GltfTexture& added, std::size_t
     return made;
 }
 
-/// \return the index of the texture.
+/// Stores a texture that is only the occlusion texture of the material. \return its index.
 std::size_t add_own(GltfOutput& output, const GltfTexture& added, std::size_t material) {
     const Json& json = output.json();
     if (json["materials"][material].contains("occlusionTexture")) {

@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// Adds each texture to its material. If other primitives use that material too, those that show the texture get a copy
-/// of it. `root` is the input.
+/// Adds each texture to its material. If other primitives use the material too, the primitives that show the texture
+/// get a copy of the material. `root` is the input.
 /// \return messages about replaced textures.
 std::vector<std::string> add_textures(GltfOutput& output, const GltfValue& root, std::span<const GltfTexture> textures);
 

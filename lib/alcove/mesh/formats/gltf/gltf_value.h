@@ -25,7 +25,7 @@ class GltfValue {
     /// \throw InputError "file: place: message"
     [[noreturn]] void fail(std::string_view message) const;
 
-    // Each fails if the value is of another type or is missing.
+    // Each function fails, see fail(), if the value is of another type or is missing.
     bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
     GltfValue operator[](const char* key) const;
     std::optional<GltfValue> find(const char* key) const;

@@ -52,7 +52,7 @@ class ValueWriter {
             if (attribute.components > 4) {
                 messages_.push_back("not stored in glTF: attribute " + in_quotes(attribute.name) +
                                     ", which has more than four components");
-            } else if (attribute.name != "quality") { // for MeshLab, the same as ao
+            } else if (attribute.name != "quality") { // `quality` is for MeshLab and equals ao
                 attributes_.push_back(&attribute);
                 double range = 1.0;
                 if (attribute.name == "thickness")
@@ -106,7 +106,7 @@ class ValueWriter {
         });
     }
 
-    /// The mean over the placements of the instance. Directions are transformed to the space of the node.
+    /// The values of an instance: the mean over its placements. Directions are transformed to the space of the node.
     InstanceValues values_of(const Instance& instance) const {
         InstanceValues values;
         for (const Attribute* attribute : attributes_) {
@@ -132,7 +132,7 @@ class ValueWriter {
         return values;
     }
 
-    /// The mean over the placements in linear light.
+    /// The colours of an instance: the mean, computed in linear light, over its placements.
     std::vector<Color> colors_of(const Instance& instance) const {
         std::vector<Color> colors;
         std::vector<glm::vec4> sums;
@@ -163,7 +163,7 @@ class ValueWriter {
         to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(vertices.count * components));
     }
 
-    /// A shader transforms them back as it transforms normals.
+    /// Transforms directions to the space of the node. A shader transforms them back as it transforms normals.
     static void to_node(std::vector<float>& directions, const glm::dmat4& to_scene) {
         const glm::dmat3 back = glm::transpose(glm::dmat3(to_scene));
         for (std::size_t i = 0; i + 2 < directions.size(); i += 3) {

@@ -16,7 +16,7 @@ std::string gltf_attribute_name(std::string_view name);
 /// Linear colours of 16 bits.
 std::vector<std::array<std::uint16_t, 4>> linear_colors(std::span<const Color> colors, ColorEncoding encoding);
 
-/// Whether the added colours are the attribute `ao`, so that COLOR_0 can be computed from that without rounding to
+/// Whether the added colours are the attribute `ao`, so that COLOR_0 can be computed from `ao` without rounding to
 /// bytes.
 bool colors_are_ao(const Mesh& mesh);
 /// One grey per value.
@@ -26,7 +26,7 @@ std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> va
 /// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about copies and replaced values.
 std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh);
 
-/// Puts comments into the extras of an asset or image. Each replaces those that begin with the same word.
+/// Puts comments into the extras of an asset or image. Each comment replaces those that begin with the same word.
 void add_comments(Json& owner, std::span<const std::string> comments);
 
 }

@@ -99,7 +99,8 @@ class NameMover {
         return {};
     }
 
-    /// Links are followed only in folders: a library that is itself a link names its textures relative to the link.
+    /// The path of a file relative to the output folder; empty if there is none. Links are followed only in folders: a
+    /// library that is itself a link names its textures relative to the link.
     std::string name_seen_from_output(const fs::path& file) const {
         std::error_code error;
         const fs::path folder = fs::canonical(file.parent_path(), error);

@@ -39,7 +39,7 @@ struct ObjValues {
 
     std::vector<Vec2> uvs;
     std::vector<Vec3> normals;                 ///< of unit length; zero where the file has no direction
-    std::vector<std::array<double, 4>> colors; ///< one per vertex as far as there are any; red, green, blue, alpha
+    std::vector<std::array<double, 4>> colors; ///< one per vertex, up to the last one with a colour; r, g, b, alpha
     std::vector<CornerReference> corners;      ///< one per corner; empty until a corner has one
     References uv_references, normal_references;
     DamagedLines damaged_uvs, damaged_normals;

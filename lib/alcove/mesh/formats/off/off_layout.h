@@ -19,7 +19,7 @@ struct OffLayout {
     bool is_standard = true; ///< the prefixes of the keyword are in the order of the format
 
     bool has(OffGroup group) const;
-    /// The numbers of a vertex if its colour has `color_components`.
+    /// The number of values of a vertex whose colour has `color_components` components.
     std::size_t width(std::size_t color_components) const;
     /// "x y z nx ny nz r g b a"
     std::string columns(std::size_t color_components) const;

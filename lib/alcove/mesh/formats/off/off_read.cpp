@@ -202,8 +202,8 @@ class OffReader {
             }
         if (text_.at_line_end())
             return;
-        // Vertices may share a line. But if every vertex line has the same number of values, those beyond the declared
-        // ones are undeclared values.
+        // Vertices may share a line. But if every vertex line has the same number of values, the values beyond the
+        // declared ones belong to its vertex.
         if (v == 0 ? every_vertex_line_has(tokens) : undeclared_ == v) {
             ++undeclared_;
             text_.next_line();
@@ -230,7 +230,7 @@ class OffReader {
         read_text_color(left - behind, v, vertex_colors_);
     }
 
-    /// Whether the line of each vertex has that many values. Called after the declared values of the first line.
+    /// Whether the line of each vertex has `tokens` values. Called after the declared values of the first line.
     bool every_vertex_line_has(std::size_t tokens) const {
         TextScanner ahead(text_);
         for (std::size_t v = 1; v < vertices_; ++v) {

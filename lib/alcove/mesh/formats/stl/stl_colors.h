@@ -17,7 +17,7 @@
 namespace alcove {
 
 /// One colour per facet, or none if the file has none. `attributes` are the 16 bits of each facet. Appends a warning
-/// about those that are not colours.
+/// about attributes that are not colours.
 std::vector<Color> stl_colors(std::string_view header, std::span<const std::uint16_t> attributes,
                               std::vector<std::string>& warnings);
 

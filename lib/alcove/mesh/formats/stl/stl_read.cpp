@@ -17,7 +17,7 @@ constexpr std::size_t header_size = 80;
 constexpr std::size_t preamble_size = header_size + sizeof(std::uint32_t);
 constexpr std::size_t facet_size = 50;
 
-/// Joins coincident corners; before, each corner has its own position.
+/// Joins coincident corners. Before the call, each corner has its own position.
 void join_corners(Mesh& mesh) {
     const std::vector<std::uint32_t> first = weld(mesh.positions);
     std::vector<std::uint32_t> number(mesh.positions.size());
@@ -60,8 +60,8 @@ bool has_binary_size(const FileBytes& file) {
     return file.size() >= preamble_size && file.size() == preamble_size + facet_size * declared_facets(file);
 }
 
-/// Many binary files begin with the keyword of the text format too, but only they contain control characters. Those at
-/// the very end of a text are padding.
+/// Many binary files begin with the keyword of the text format too, but only binary files contain control characters.
+/// Control characters at the very end of a text are padding.
 bool is_text(const FileBytes& file) {
     constexpr std::string_view padding("\0\x1a \t\r\n", 6), spacing = "\t\n\v\f\r\x1a";
     const std::string_view text = file.view().substr(0, file.view().find_last_not_of(padding) + 1).substr(0, 1024);
@@ -141,7 +141,7 @@ class TextReader {
         return same_word(text_.peek(), word);
     }
 
-    /// Takes "end" and `what`, in one word or two. \return whether they are next.
+    /// Reads past "end" and `what`, in one word or two, if they are next. \return whether they were.
     bool take_end(std::string_view what) {
         if (text_.at_end())
             text_.fail_early(("end" + std::string(what)).c_str());
