@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace alcove {
 namespace HWY_NAMESPACE {
 
-/// The centres of the octants; these are the voxels if the block has 2³.
+/// The centres of the octants. If the block has 2³ voxels, these are the voxels themselves.
 HWY_INLINE EightPoints octants_of(const Block& block) {
     const int size = block.size / 2;
     return {(2 * block.low + (size - 1)) * block.stride, 2 * size * block.stride};

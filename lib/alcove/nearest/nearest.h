@@ -25,19 +25,19 @@ struct Block {
 };
 
 inline constexpr int brick_size = 8;
-/// Rows of voxels along z, y fastest: one byte each in masks.
+/// The number of rows of voxels along z in a brick. Masks have one byte per row, y fastest.
 inline constexpr std::size_t brick_rows = std::size_t{brick_size} * brick_size;
 inline constexpr int brick_volume = brick_size * brick_size * brick_size;
 
-/// Per voxel of a brick, z fastest.
+/// The nearest triangle of each voxel of a brick, z fastest.
 struct NearestTriangles {
     float distance2[brick_volume];        ///< squared, in the tree's units; infinite where unknown
     std::uint32_t triangle[brick_volume]; ///< set where nearest_triangles() found the distance
 };
 
-/// Splits a block into octants, x slowest. A part gets the nodes that are within `reach` (tree's units) of one of its
-/// voxels and may be nearest to it; nodes that are large compared with the part are replaced by their children.
-/// Thread-safe.
+/// Splits a block into octants, x slowest. Each part gets the nodes that are within `reach` (tree's units) of one of
+/// its voxels and may be nearest to that voxel. Nodes that are large compared with the part are replaced by their
+/// children. Thread-safe.
 void split(const TriangleTree& tree, const Nodes& nodes, const Block& block, float reach, std::array<Nodes, 8>& parts);
 
 /// Search radii in the tree's units, for voxels inside (bit set in `rows`, one byte per z-row) and outside.

@@ -134,7 +134,7 @@ FragmentLeaves::FragmentLeaves(std::span<const Vec3d> positions, std::span<const
 }
 
 void FragmentLeaves::prefetch(std::size_t i) const {
-    constexpr std::size_t ahead = 32; // for the triangle; half as much for its corners
+    constexpr std::size_t ahead = 32; // prefetch distance of a triangle; half as far for its corners
     if (i + ahead >= order_.size())
         return;
     if (const std::uint32_t later = order_[i + ahead].value; later < triangles_.size())

@@ -39,7 +39,8 @@ HWY_INLINE Vec3v offset_from(const Bounds& b, const Vec3v& p) {
     return minus_scaled(times(hn::Div(beside, across), radial), hn::Neg(hn::CopySign(beyond, height)), axis);
 }
 
-/// Squared distances of points from that cylinder, or slightly less. Avoids the division that offset_from() needs.
+/// Squared distances of points from the bounding cylinder of a node, or slightly less. Avoids the division that
+/// offset_from() needs.
 HWY_INLINE V distance2(const Bounds& b, const Vec3v& p) {
     const Vec3v from_centre = minus(p, everywhere(b.centre));
     const V height = dot(from_centre, everywhere(b.axis));
@@ -156,8 +157,8 @@ class Octants {
     }
 
     alignas(64) float at_[3][eight];     // the centres
-    alignas(64) float distance2_[eight]; // to the nearest known points
-    alignas(64) float offset_[3][eight]; // offsets from these to the centres
+    alignas(64) float distance2_[eight]; // squared, to the nearest known points
+    alignas(64) float offset_[3][eight]; // offsets from these points to the centres
     alignas(64) float limit2_[eight];    // squared search radii, negative for none
     float half_;
 };

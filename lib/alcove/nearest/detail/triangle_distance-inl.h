@@ -63,13 +63,13 @@ HWY_INLINE V distance2(const TriangleLeaf& g, std::uint32_t i, const Vec3v& p) {
         g, [i](const float(&row)[eight]) HWY_ATTR { return hn::Set(d, row[i]); }, p));
 }
 
-/// Squared distances of the triangles from `lane` on from a point.
+/// Squared distances between a point and the triangles of a leaf, starting with triangle `lane`.
 HWY_INLINE V distances2(const TriangleLeaf& g, int lane, const Vec3v& p) {
     return distance2(from_sides(
         g, [lane](const float(&row)[eight]) HWY_ATTR { return hn::Load(d, row + lane); }, p));
 }
 
-/// The offsets to a point from the nearest points of the triangles from `lane` on.
+/// The offsets from the nearest points of the triangles of a leaf, starting with triangle `lane`, to a point.
 HWY_INLINE Vec3v offsets_from(const TriangleLeaf& g, int lane, const Vec3v& p) {
     const auto of = [lane](const float(&row)[eight]) HWY_ATTR { return hn::Load(d, row + lane); };
     const FromSides from = from_sides(g, of, p);
