@@ -67,7 +67,8 @@ GridOptions with_voxel_of_lattice(GridOptions options, const Frame& frame) {
 /// Partial levels pay off where few voxels are unresolved. Otherwise, a finer voxel is better.
 constexpr double most_unresolved = 0.2;
 
-/// At most 1.5 times the bricks of the finest level, for at most about three times the time and memory.
+/// The limit for the bricks of all partial levels: as many as the spare memory holds, but at most 1.5 times those of
+/// the finest level, so that time and memory are at most about three times as large.
 std::size_t bricks_for_partial_levels(std::size_t finest, const LevelPlan& plan) {
     return static_cast<std::size_t>(
         std::min(plan.spare_bytes / bytes_per_partial_brick, 1.5 * static_cast<double>(finest)));

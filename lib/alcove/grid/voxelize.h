@@ -14,8 +14,7 @@ namespace alcove {
 struct GridOptions {
     /// Largest distance from the surface that will be queried, unit space, > 0; infinity is clamped to the diagonal.
     float radius = 0.1f;
-    /// Edge of the finest voxel, unit space. 0 chooses `largest_voxel`, or radius/8 if that is finer, but at least
-    /// 1/1024.
+    /// Edge of the finest voxel, unit space. 0 chooses radius/8, but at least 1/1024, and at most `largest_voxel`.
     float voxel = 0.0f;
     /// Sets the finest voxel instead of `voxel`, and puts all voxel centres on the lattice.
     std::optional<Lattice> lattice{};
@@ -105,8 +104,8 @@ Mesh with_surface(Mesh mesh, const PointOptions& options = {});
 
 /// Adds coarser levels, voxelized from the zero isosurface, until the last reaches `radius` (unit space; infinity is
 /// clamped to the diagonal). With `inside`, replaces a stack for which knows_inside() is false by one of the same
-/// voxel and surface for which it is true. Returns a stack that already satisfies both unchanged. \throw as
-/// mesh_zero_surface(), and LimitError as voxelize().
+/// voxel and surface for which it is true. Returns a stack that already satisfies both unchanged. \throw like
+/// mesh_zero_surface(), and LimitError like voxelize().
 GridStack extend_levels(GridStack stack, float radius, bool inside = false);
 
 }

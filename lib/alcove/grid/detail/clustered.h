@@ -25,7 +25,7 @@ struct Surface {
 /// the number of threads. Cost: about 20 ns per triangle, plus 50 ns per vertex where edges are open.
 class ClusteredSurface {
   public:
-    /// `is_balanced`: see balanced(); if not, coincident vertices are joined first.
+    /// `is_balanced`: the result of balanced(). If false, coincident vertices are joined first.
     /// \pre finite positions are in [0, 2^21) cells
     ClusteredSurface(const Surface& surface, bool is_balanced, double cell);
 

@@ -16,10 +16,10 @@ struct NearestOfBrick {
     std::array<float, brick_volume> distance;         ///< signed, voxels; plus or minus the band width outside the band
 };
 
-/// The level of the given stride, with values multiplied by `value_scale` and the inside of solids filled. Its index is
-/// that of the band plus `first` / stride, which is a multiple of brick_size. Reuses the distances of `finer`, the
-/// level of half the stride, if given. Sets only grid, active_voxels and bytes. Adds the nearest triangles of its
-/// bricks to `nearest`, if given, where no finer level had the distance.
+/// The level of the given stride, with values multiplied by `value_scale` and the inside of solids filled. Indices are
+/// those of the band plus `first` / stride, which is a multiple of brick_size. Reuses the distances of `finer`, the
+/// level of half the stride, if given. Sets only grid, active_voxels and bytes. If `nearest` is given, adds the nearest
+/// triangles of the voxels whose distance `finer` did not have, brick by brick.
 LevelSet level_set(const Band& band, int stride, double value_scale, const Index3& first = Index3(0),
                    const LevelSet* finer = nullptr, std::vector<NearestOfBrick>* nearest = nullptr);
 

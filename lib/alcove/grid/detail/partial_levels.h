@@ -24,10 +24,10 @@ struct PartialLevelsSource {
 inline constexpr double bytes_per_partial_brick = 6000.0;
 
 /// At most two levels, from finest to coarsest: one of a quarter of the voxel size around the voxels beside walls and
-/// gaps thinner than a voxel, and one of half the voxel size within 1.5 voxels of all unresolved voxels. If both exceed
-/// `max_bricks` or a level covers too large a box, leaves out the finer level, or both if the coarser one does so
-/// alone. Leaves out both if building them takes more than `max_bytes`. Cost: 20 ns per triangle, plus Band::brick()
-/// for each brick.
+/// gaps thinner than a voxel, and one of half the voxel size within 1.5 voxels of all unresolved voxels. The finer
+/// level is left out if both together exceed `max_bricks`, or if the finer one covers too large a box. Both are left
+/// out if the coarser level alone exceeds `max_bricks` or covers too large a box, or if building the levels takes more
+/// than `max_bytes`. Cost: 20 ns per triangle, plus Band::brick() for each brick.
 std::vector<LevelSet> partial_levels(const UnresolvedVoxels& unresolved, const PartialLevelsSource& source);
 
 }

@@ -19,8 +19,8 @@ namespace {
 
 constexpr float min_outer_band = 3.0f, min_inner_band = 2.0f; // voxels
 
-// Measured peaks of resident memory: per voxel of the finest band, the grids and the bricks of their fields; per
-// clustered triangle, 90 if edges are checked too.
+// Measured peaks of resident memory. The bytes per voxel of the finest band include the grids and the bricks of their
+// fields. Clustering was measured to take 90 bytes per triangle if edges are checked too.
 constexpr double bytes_per_band_voxel = 60.0;
 constexpr double bytes_per_clustered_triangle = 100.0;
 constexpr double bytes_per_voxel_of_length = 100.0; // fragments of long triangles
@@ -66,7 +66,8 @@ struct Estimate {
         };
         const double unclustered = minimum + bytes_per_triangle * triangles;
         double voxel = solved(unclustered, by_length, by_surface);
-        // If no voxel too fine for clustering fits, the finest that fits is clustered.
+        // Voxels below a certain size are built without clustering. If none of these fits, the finest voxel that fits
+        // is built with clustering.
         if (!(unclustered < limit) || clusters(voxel))
             voxel = std::max(std::sqrt(worth_clustering * area / triangles),
                              solved(minimum + bytes_per_clustered_triangle * triangles, 0.0,

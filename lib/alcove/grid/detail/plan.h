@@ -24,8 +24,8 @@ struct SurfaceSize {
 };
 SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles);
 
-/// Measured peak of resident memory per voxelized triangle: the search for nearest triangles (130 for solids, 230 for
-/// sheets).
+/// Measured peak of resident memory per voxelized triangle, in the search for nearest triangles (130 for solids, 230
+/// for sheets).
 inline constexpr double bytes_per_triangle = 240.0;
 
 /// Side of the cubes within which clustering merges vertices, in voxels.
@@ -44,13 +44,13 @@ double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOp
 
 /// Adds levels until the last band, less its outermost voxel, reaches the radius. Estimates the voxels from area /
 /// voxel² and the fragments of long triangles from their lengths. If GridOptions::voxel is 0, coarsens the default
-/// until it fits.
-/// \throw LimitError if no voxel fits the memory limit, or if the requested one does not fit or takes more than
-/// 2^20 voxels along the diagonal; the message then names the finest voxel that fits.
+/// voxel until the grids fit in memory.
+/// \throw LimitError if no voxel fits the memory limit, or if the requested one does not fit or takes more than 2^20
+/// voxels along the diagonal; the message then names the finest voxel that fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
 
-/// \throw LimitError if clustering left more triangles than planned and they do not fit the limit. This happens
-/// with many parts smaller than a voxel, which clustering keeps.
+/// \throw LimitError if clustering left more triangles than planned, and these do not fit in the memory limit. This
+/// happens with many parts smaller than a voxel, which clustering keeps.
 void check_clustered(const LevelPlan& plan, std::size_t triangles, const GridOptions& options);
 
 }

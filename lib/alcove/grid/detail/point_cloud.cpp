@@ -174,8 +174,8 @@ void estimate_normals(PointCloud& cloud, const Tree& tree) {
     }
 }
 
-/// Whether a point is apart from its neighbours and off their tangent planes, far from them with them off its own, or
-/// very far from them.
+/// Whether a point is an outlier, in one of three ways: it is apart from its neighbours and off their tangent planes;
+/// it is far from its neighbours and they are off its tangent plane; or it is very far from its neighbours.
 bool is_outlier(const PointCloud& cloud, const Tree& tree, const CloudPoint& point) {
     constexpr float apart = 1.4f, far = 2.5f, very_far = 8.0f; // spacings
     constexpr float off_plane = 0.3f, off_planes = 0.6f;       // sines

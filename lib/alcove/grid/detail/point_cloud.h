@@ -21,7 +21,8 @@ struct CloudPoint {
 struct PointCloud {
     std::vector<CloudPoint> points; ///< along a Morton curve
     float spacing = 0.0f;           ///< the median
-    /// Points at the position of another: the index of each in the input, and that of the other one.
+    /// Pairs of points at the same position, as indices in the input: a point that was left out, and the one that was
+    /// kept.
     std::vector<std::array<std::uint32_t, 2>> duplicates;
     std::size_t not_finite = 0, outliers = 0, estimated_normals = 0;
 };
@@ -34,8 +35,8 @@ struct PointCloud {
 /// about 3 µs per point, 5 µs with normals to estimate. \throw InputError for fewer than three different points.
 PointCloud clean_points(std::span<const Vec3d> positions, std::span<const Vec3> normals, const Frame& frame);
 
-/// The box of the points without the furthest 1 % on each side, enlarged by its size on each side, if points lie
-/// outside that box; else the box of all points.
+/// The box of all points, but limited to an enlarged box of the inner points. The inner points are those without the
+/// furthest 1 % on each side; their box is enlarged by its diagonal on each side.
 Box box_without_outliers(std::span<const Vec3d> positions);
 
 }

@@ -38,7 +38,7 @@ class PointField {
     struct Block {
         std::array<std::int32_t, 3> at; ///< its first voxel
         std::array<float, volume> value, weight;
-        std::array<std::uint8_t, volume> count;   ///< of points, at most 255
+        std::array<std::uint8_t, volume> count;   ///< number of points, at most 255
         std::array<std::uint32_t, volume> vertex; ///< of the cell whose lowest corner this is
     };
     static std::uint64_t key(const std::array<std::int32_t, 3>& voxel);
@@ -46,8 +46,8 @@ class PointField {
     std::uint32_t make_block(const std::array<std::int32_t, 3>& voxel);
     /// Finds blocks, and remembers the last one.
     class Finder;
-    void add(const CloudPoint& point, float count); ///< that stands for `count` points
-    /// Adds a point to the voxels of a block from `first` to `last` along z. `center` and `radius` in voxels.
+    void add(const CloudPoint& point, float count); ///< `point` stands for `count` points
+    /// Adds a point to the voxels of a block from `first` to `last` along z. `center` and `radius` are in voxels.
     static void add_row(Block& block, const CloudPoint& point, float count, std::array<std::int32_t, 3> voxel,
                         std::int32_t first, std::int32_t last, const Vec3& center, float radius);
     void build_surface();

@@ -11,9 +11,9 @@ namespace alcove {
 
 /// Voxels beside thin walls and gaps.
 struct UnresolvedVoxels {
-    std::vector<Index3> below_two; ///< beside those thinner than two voxels
-    std::vector<Index3> below_one; ///< beside those thinner than one voxel
-    double share = 0.0;            ///< their share of the voxels next to the surface
+    std::vector<Index3> below_two; ///< beside walls and gaps thinner than two voxels
+    std::vector<Index3> below_one; ///< beside walls and gaps thinner than one voxel
+    double share = 0.0;            ///< the unresolved share of the voxels next to the surface
 };
 
 /// Compares the nearest triangles of neighbouring voxels: where they face in opposite directions, the neighbours are on

@@ -35,7 +35,8 @@ bool owns(const Corner& a, const Corner& b) {
     return b.y > a.y || (b.y == a.y && b.x < a.x);
 }
 
-/// The columns of a row that a triangle may cover. If it is long, these are far fewer than those of its bounding box.
+/// The columns of a row that a triangle may cover. For a long triangle, these are far fewer than the columns of its
+/// bounding box.
 std::pair<std::int64_t, std::int64_t> covered(const Corner (&corners)[3], std::int64_t x, std::int64_t one) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     const auto at = static_cast<double>(x * one);
