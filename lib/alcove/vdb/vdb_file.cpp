@@ -150,7 +150,7 @@ VdbGrid solid_of(const GridStack& stack, const std::filesystem::path& file) {
     return {finest};
 }
 
-/// A stack of Alcove as it is, or the union of all grids.
+/// If `grids` are one stack that Alcove wrote, this stack. Otherwise the union of all grids.
 GridStack stack_of(const std::vector<VdbGrid>& grids, const std::filesystem::path& file, double memory_limit,
                    std::vector<std::string>& warnings) {
     std::map<std::string, std::vector<FloatGrid::Ptr>> stacks; // by the text of their frames

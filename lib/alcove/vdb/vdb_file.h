@@ -28,8 +28,8 @@ struct StoredGrid {
     std::optional<std::int64_t> active_voxels; ///< if the file says so
 };
 
-/// All grids in the order of the file. \throw InputError as read_grids(), for a file without level sets only if it is
-/// damaged.
+/// All grids in the order of the file. \throw InputError like read_grids(), but a file without level sets is refused
+/// only if it is damaged.
 std::vector<StoredGrid> list_grids(const std::filesystem::path& file);
 
 /// Which grids of a file to read.
@@ -59,7 +59,7 @@ struct GridSelection {
 ///
 /// \throw InputError, giving the reason: the file cannot be opened, is not a .vdb file, is damaged, has changed since
 /// it was written, contains no level set, or has a surface around which no voxels hold distances. LimitError if the
-/// grids do not fit.
+/// grids exceed the memory limit.
 GridStack read_grids(const std::filesystem::path& file, const GridSelection& selection = {});
 
 /// The lattice of the voxels of the finest level set. \throw like read_grids(), and InputError if its voxels are not

@@ -26,7 +26,7 @@ namespace io = openvdb::io;
 
 class GridReader : public io::Archive {
   public:
-    /// Reads the grids that are `wanted` by their position in the file, and those whose trees they share.
+    /// Reads the grids whose position in the file is `wanted`, and the grids whose trees they share.
     std::vector<openvdb::GridBase::Ptr> read(std::istream& stream, const VdbStructure& structure,
                                              const std::vector<bool>& wanted) {
         readHeader(stream);

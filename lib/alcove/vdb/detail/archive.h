@@ -13,9 +13,9 @@ namespace alcove {
 /// \throw InputError "FILE: what", in one line.
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 
-/// Reads the grids that are `wanted` by their position in the file, in that order, each with a tree of its own. Doubles
-/// become floats. Each must be of floats or doubles. \throw InputError if OpenVDB cannot read them, their values are
-/// not finite, or the number of active voxels differs from the metadata.
+/// Reads the grids whose position in the file is `wanted`, in the order of the file. Each gets a tree of its own. The
+/// values of each must be floats or doubles; doubles become floats. \throw InputError if OpenVDB cannot read them,
+/// their values are not finite, or the number of active voxels differs from the metadata.
 std::vector<VdbGrid> read_trees(const std::filesystem::path& file, const VdbStructure& structure,
                                 const std::vector<bool>& wanted);
 

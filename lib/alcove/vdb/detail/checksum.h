@@ -10,7 +10,7 @@ namespace alcove {
 /// CRC-32 (Gailly and Adler 2022) of everything that determines the scale, position and values of a grid: its
 /// class and `alcove:*` metadata except `alcove:checksum`, the matrix of its transform, the background, and for
 /// every node its origin, the mask of its active values and all its values. Independent of the compression of the
-/// file. Damage of up to 32 consecutive bits is always detected, other damage except with a probability of 2⁻³².
+/// file. Damage of up to 32 consecutive bits is always detected. Other damage is missed with a probability of 2⁻³².
 /// Thread-safe; uses the threads of parallel_for.
 std::uint32_t checksum_of(const VdbGrid& grid);
 

@@ -46,8 +46,8 @@ void check_bounding_box(const FloatGrid& grid, const openvdb::CoordBBox& voxels,
                                  grid.getName()));
 }
 
-/// Some programs leave the background far beyond the band. It only says that no distance is known, and the largest
-/// value within the band says that as well.
+/// Limits the background, which some programs leave far beyond the band, to the largest value within the band. Either
+/// value says only that no distance is known.
 void limit_background(FloatGrid& grid) {
     float largest = 0.0f;
     for (auto value = grid.cbeginValueOn(); value; ++value)
@@ -136,7 +136,7 @@ std::string prepare(const VdbGrid& level, const std::filesystem::path& file, std
                                  grid->getName()));
     check_tiles(grid, file, warnings);
     limit_background(*grid);
-    // Programs that set voxels one by one leave the inside beyond the band at the outside value.
+    // Programs that set voxels one by one leave the inside, beyond the band, at the value of the outside.
     const float inside = std::min(inner_band_of(level), grid->background());
     openvdb::tools::signedFloodFillWithValues(grid->tree(), grid->background(), -inside);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);

@@ -9,8 +9,8 @@
 
 namespace alcove {
 
-/// The width of the inner band, in the unit of the values: down to the value that fills the inside, or as wide as the
-/// outer band if nothing is filled.
+/// The width of the inner band, in the unit of the values. The band ends at the value that fills the inside; if nothing
+/// is filled, it is as wide as the outer band.
 float inner_band_of(const VdbGrid& grid);
 
 /// The centre of the voxel of index (0, 0, 0), scene units.

@@ -45,8 +45,8 @@ BloscSizes blosc_sizes(ForwardReader& file) {
 }
 constexpr std::uint64_t blosc_header = 16;
 
-/// Checks `count` items of metadata for delayed loading: uncompressed, or a Blosc chunk, for which OpenVDB
-/// allocates the size that the chunk declares.
+/// Checks `count` items of metadata for delayed loading, which are uncompressed or a Blosc chunk. OpenVDB allocates the
+/// size that the chunk declares.
 void check_delayed_items(ForwardReader& file, std::uint64_t count, std::uint64_t item, std::uint32_t stored) {
     if (stored == 0) {
         file.skip(count * item);
@@ -121,7 +121,8 @@ struct Storage {
     std::size_t stored; ///< bytes of a stored value: the same, or those of a half float
 };
 
-/// OpenVDB accepts partly unpacked data, and ignores the checksum.
+/// Checks that zipped values can be unpacked completely: OpenVDB accepts partly unpacked data, and ignores the
+/// checksum.
 void check_zipped(ForwardReader& file, std::size_t size, std::size_t stored) {
     const std::string packed = file.bytes(size);
     std::vector<Bytef> values(stored);
@@ -145,7 +146,7 @@ void check_values(ForwardReader& file, std::size_t count, std::size_t active, st
     if (kind == mask_and_none || kind == mask_and_one || kind == mask_and_two)
         file.skip(mask_bytes);
     const std::size_t stored = storage.stored * (storage.active_only && kind != all_values ? active : count);
-    const bool is_left_out = storage.stored < storage.value && stored == 0; // the length is left out as well
+    const bool is_left_out = storage.stored < storage.value && stored == 0; // then the length is not stored either
     if (is_left_out || (!storage.blosc && !storage.zip)) {
         file.skip(stored);
         return;
@@ -264,7 +265,7 @@ std::size_t check_tree(ForwardReader& file, const Storage& storage, std::int64_t
     return size.bytes;
 }
 
-/// A scale is stored together with values derived from it.
+/// Checks that a scale agrees with the derived values that are stored with it.
 void check_scale(ForwardReader& file) {
     std::array<std::array<double, 3>, 5> scale{};
     file.read(scale.data(), scale.size());
