@@ -88,7 +88,7 @@ void LevelStack::map(const Points& points, float reach, float* distances) const 
     }
 }
 
-/// Replaces distances by those of the finest partial level that has them.
+/// Replaces each distance by that of the finest partial level that has a distance at the point.
 void LevelStack::refine(const Points& points, float* distances) const {
     std::array<float, block> x, y, z, values;
     std::array<std::uint16_t, block> near;

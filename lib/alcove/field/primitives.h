@@ -72,9 +72,9 @@ inline constexpr std::size_t combine_block = 256;
 
 /// Base class of unions; `Self` visits its parts by `for_each_part(visit)`.
 ///
-/// If no part is two-sided, the smallest distance wins. Otherwise the distance nearest to 0 wins, and the inside of
-/// the solid parts counts as 0. The reasons: the sign of a sheet says nothing about other parts, the depth inside a
-/// solid must not hide a sheet within it, and rays must end in a solid as they would without the sheets.
+/// If no part is two-sided, the result is the smallest distance. Otherwise it is the distance nearest to 0, where the
+/// inside of the solid parts counts as 0. The reasons: the sign of a sheet says nothing about other parts, the depth
+/// inside a solid must not hide a sheet within it, and rays must end in a solid as they would without the sheets.
 template <class Self>
 struct UnionBase {
     float map(const Vec3& p) const {

@@ -43,7 +43,7 @@ class Bricks {
     const Vec3& origin() const { return origin_; }
     /// Distances below this are correct; above, interpolation includes saturated values beyond the band.
     float usable() const { return usable_; }
-    /// The same for the negative distances behind the surface.
+    /// The same limit for the size of negative distances, behind the surface.
     float usable_inside() const { return usable_inside_; }
     /// A box around the surface, larger than the surface by at most the band and a brick.
     const Cuboid& bounds() const { return bounds_; }

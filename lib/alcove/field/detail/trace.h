@@ -11,7 +11,7 @@
 namespace alcove {
 
 struct TraceOptions {
-    float far = 1.0f;           ///< distance along the ray beyond which it is a miss; may be infinite
+    float far = 1.0f;           ///< distance along the ray beyond which the ray is a miss; may be infinite
     float hit_distance = 1e-4f; ///< a ray hits where map() is less than this
     float shortest_step = 1e-4f;
     int max_steps = 1024; ///< a ray without a hit after this many steps is a miss
