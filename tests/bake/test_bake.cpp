@@ -251,7 +251,7 @@ TEST(Bake, JoinedVerticesShareTheirValues) {
     ASSERT_EQ(joined.ao().size(), soup.vertex_count());
     for (std::size_t v = 0; v < soup.vertex_count(); ++v)
         EXPECT_EQ(joined.ao()[v], whole.ao()[box.corners[v]]);
-    EXPECT_THROW(bake(soup, {.weld = "100"}), InputError); // joins all
+    EXPECT_THROW(bake(soup, {.weld = "100"}), InputError); // joins all vertices
     EXPECT_THROW(bake(soup, {.weld = "1vx"}), InputError);
 }
 

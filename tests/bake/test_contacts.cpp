@@ -124,7 +124,7 @@ bool is_near(double a, double b) {
     return std::fabs(a - b) < 1e-6;
 }
 
-/// The number of walls of the room [-1, 1]³ at a point; points near other edges than their own do not count.
+/// Selects the points that lie on `walls` walls of the room [-1, 1]³ and are not near any other wall.
 std::function<bool(const Vec3d&)> at_walls(int walls) {
     return [walls](const Vec3d& p) {
         int on = 0, clear = 0;
@@ -143,7 +143,8 @@ TEST(Contacts, EdgesAndCornersOfARoom) {
               {{"wall", 1.0, at_walls(1)}, {"edge", 0.5, at_walls(2)}, {"corner", 0.25, at_walls(3)}});
 }
 
-// The cosine-weighted share of a quadrant around its middle direction, and that of an octant around its own.
+// The open share is that of a quadrant at an edge and of an octant at a corner, each cosine-weighted around its middle
+// direction.
 TEST(Contacts, EdgesAndCornersOfAWeldedRoom) {
     const Mesh room = turned_inside_out(box_mesh({1, 1, 1}, 8));
     const Baked baked = bake(room, {.radius = "0.5", .method = "exact", .parameters = {{"rays", 1024}}});
@@ -186,8 +187,8 @@ TEST(Contacts, CubeWithHardEdgesOnTheGround) {
     }
 }
 
-// A floor whose vertices lie under the rim of a box: half of the hemisphere is open at its sides, three quarters at its
-// corners, nothing beneath it.
+// A floor whose vertices lie under the rim of a box: half of the hemisphere is open at the sides of the box, three
+// quarters at its corners, and nothing beneath the box.
 TEST(Contacts, FloorUnderABox) {
     Mesh mesh = floor_mesh(5.0, 20);
     const std::size_t floor_vertices = mesh.vertex_count();
@@ -229,7 +230,8 @@ TEST(Contacts, StackedBoxesCoverTheFaceBetweenThemAndLeafCardsDoNot) {
     }
 }
 
-// Voxel art: a cube of half the size on a larger one, whose faces have no vertex at its corners.
+// Voxel art: a small cube on a cube of twice its size. The faces of the large cube have no vertices at the corners of
+// the small one.
 TEST(Contacts, TJunctions) {
     Mesh mesh = split_by_side(moved(box_mesh({2, 2, 2}, 1), {0, -2, 0}));
     const auto large = mesh.vertex_count();
@@ -283,7 +285,8 @@ TEST(Contacts, SeamsOfSmoothSurfacesKeepTheirValues) {
     }
 }
 
-// Each of two distant parts has the same occlusion as alone, whatever the diagonal of both.
+// Each of two distant parts has the same occlusion as when it is baked alone, however large their joint bounding box
+// is.
 TEST(Contacts, SmallRadiiInLargeScenes) {
     Mesh part = floor_mesh(1.0, 16);
     const auto wall_begin = part.vertex_count();
@@ -298,7 +301,7 @@ TEST(Contacts, SmallRadiiInLargeScenes) {
         add_part(both, part, 1.0, Vec3d(radius / ratio, 0, 0));
         for (const Way& run : runs()) {
             if (run.name == "traced" || run.name == "calibrated")
-                continue; // these warn of the voxel
+                continue; // these methods warn of the voxel
             BakeOptions options = run.options;
             options.radius = Length(radius);
             const Baked alone = bake(part, options), far = bake(both, options);

@@ -47,14 +47,14 @@ TEST(Selection, ExcludedPartsDoNotOcclude) {
     const std::vector<float> floor = ao({.exclude = {"lid"}});
     EXPECT_TRUE(all_are(floor, 1.0f));
     const Baked baked = bake(floor_and_lid(), {.radius = "10%", .method = "exact", .faces = {.exclude = {"lid"}}});
-    EXPECT_NEAR(baked.radius, 0.1 * std::sqrt(2.0), 1e-6); // of the remaining faces
+    EXPECT_NEAR(baked.radius, 0.1 * std::sqrt(2.0), 1e-6); // the diagonal of the remaining faces
 }
 
 TEST(Selection, PartsThatDoNotOccludeAreStillBaked) {
     for (const FaceSelection& faces : {FaceSelection{.no_occlude = {"l?d"}}, FaceSelection{.opaque_only = true}}) {
         const std::vector<float> values = ao(faces), all = ao({});
         EXPECT_TRUE(all_are(std::span(values).first(4), 1.0f));
-        EXPECT_TRUE(std::equal(values.begin() + 4, values.end(), all.begin() + 4)); // by the floor
+        EXPECT_TRUE(std::equal(values.begin() + 4, values.end(), all.begin() + 4)); // the floor still occludes the lid
     }
 }
 
