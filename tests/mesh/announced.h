@@ -9,6 +9,6 @@ struct Announced {
     bool operator==(const Announced&) const = default;
 };
 
-/// The counts of a file that can be read: the declared ones of PLY, OFF and binary STL, the numbers of lines of
-/// OBJ, and of the facets of an STL text. The vertices of STL are its corners.
+/// The counts of a file that can be read. For PLY, OFF and binary STL, these are the declared counts; for OBJ, the
+/// numbers of lines; for an STL text, the number of facets. The vertices of STL are its corners.
 Announced announced_by(const std::string& bytes, std::string_view format);

@@ -27,7 +27,7 @@ class GltfBuilder {
         return json["bufferViews"].size() - 1;
     }
 
-    /// `components` values each.
+    /// Adds an accessor whose elements have `components` values each. \return its index.
     template <class T>
     std::size_t add(const std::vector<T>& values, std::size_t components = 1) {
         const char* const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -52,7 +52,7 @@ class GltfBuilder {
         json["nodes"].push_back(std::move(node));
         return json["nodes"].size() - 1;
     }
-    /// A scene of these nodes.
+    /// Sets the only scene, which consists of these nodes.
     void show(const std::vector<std::size_t>& nodes) { json["scenes"] = {{{"nodes", nodes}}}; }
 
     /// A unit square in the plane z = 0 that faces +z, and its accessors.

@@ -47,7 +47,7 @@ TEST(CornerNormals, TheFilesOwnGoFirst) {
 TEST(CornerNormals, OfCornersComeBeforeThoseOfVertices) {
     Mesh box = box_mesh(Vec3d(1.0), 1);
     box.normals.assign(box.positions.size(), glm::normalize(Vec3(1, 2, 3)));
-    for (std::size_t c = 0; c < box.corners.size(); ++c) // another for each corner
+    for (std::size_t c = 0; c < box.corners.size(); ++c) // a different normal for each corner
         box.corner_normals.push_back(glm::normalize(Vec3(1, static_cast<float>(c), 0)));
     box.corner_normals[0] = Vec3(0.0f); // missing in the file
     const std::vector<Triangle> triangles = triangulate(box).triangles, corners = corners_of_triangles(box);

@@ -115,7 +115,8 @@ struct SlowDiagnosis {
     }
 };
 
-/// Few vertices, so that many faces share an edge; some coincide and one may not be finite; faces of 0 to 5 corners.
+/// A mesh of few vertices, so that many faces share an edge. Some vertices coincide, and one may not be finite. Faces
+/// have 0 to 5 corners.
 Mesh random_soup(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     Mesh mesh;

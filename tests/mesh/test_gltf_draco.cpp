@@ -36,7 +36,7 @@ Json draco_triangle(GltfBuilder& builder) {
            {{"bufferView", view}, {"attributes", {{"POSITION", mesh.attribute(id)->unique_id()}}}}}}}};
 }
 
-/// three.js shows primitives with the same compressed buffer view as one, with the values of only one of them.
+/// three.js gives all primitives with the same compressed buffer view the values of only one of them.
 TEST_F(GltfDraco, CopiesHaveTheirOwnViewOfTheSameBytes) {
     GltfBuilder builder;
     const std::size_t mesh = builder.add_mesh({draco_triangle(builder)});

@@ -16,7 +16,8 @@ class ObjFiles : public ScratchFiles {
             write(name, "newmtl a\n");
     }
 
-    /// Writes a triangle after that line to `file`, and keeps the messages. \return the text before the triangle.
+    /// Reads an OBJ of `line` and a triangle, writes it to `file`, and keeps the messages. \return the text before the
+    /// triangle.
     std::string written(const std::string& line, const std::string& file = "out/a.obj") {
         told_ = write_mesh(read("in/a.obj", line + triangle), path(file));
         const std::string text = bytes_of(file);

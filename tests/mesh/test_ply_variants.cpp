@@ -54,7 +54,7 @@ bool warns(const Mesh& mesh, std::string_view words) {
                        [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
 
-/// A triangle with a property of the vertices whose values are those of `rows`.
+/// A triangle whose vertices have `properties`, with one vertex per entry of `rows`.
 std::string triangle_with(const std::string& properties, const std::array<std::string, 3>& rows) {
     return "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + properties + "element face 1\n" + list +
            "end_header\n0 0 0 " + rows[0] + "\n1 0 0 " + rows[1] + "\n0 1 0 " + rows[2] + "\n3 0 1 2\n";
@@ -101,7 +101,8 @@ TEST_F(PlyVariants, BinaryStripsAreTriangles) {
 }
 
 TEST_F(PlyVariants, StripsConnectedByRepeatedVerticesKeepTheirTurns) {
-    // 0 1 2 3, then 4 5 6 7 of another strip: 3 4 are repeated, so that an even number of triangles vanishes.
+    // The strips 0 1 2 3 and 4 5 6 7 are joined by repeating 3 and 4, so that an even number of triangles is
+    // degenerate.
     const Mesh mesh =
         read("strips.ply", cube_of_strips("property list int int vertex_indices\n", "10 0 1 2 3 3 4 4 5 6 7\n"));
     EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3, 4, 5, 6, 6, 5, 7}));
