@@ -46,7 +46,7 @@ TEST(Fragments, HoldEveryTriangleOnce) {
     }
 }
 
-/// Repeated halving would give a thousand fragments each.
+/// Repeated halving would cut each needle into a thousand fragments.
 TEST(Fragments, OfNeedlesGrowWithTheirLengthAlone) {
     std::vector<Vec3d> positions;
     std::vector<Triangle> triangles;
