@@ -45,7 +45,7 @@ bool has_warning(const Mesh& mesh, const std::string& text) {
                        [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
 }
 
-/// A square of points at z, with a distance of 0.02 between them, that faces +z.
+/// Adds a square grid of points at height `z`, 0.02 apart, that faces +z.
 void add_square(Mesh& points, double z, float side, double hole = 0.0) {
     for (double x = 0.0; x <= 1.0; x += 0.02)
         for (double y = 0.0; y <= 1.0; y += 0.02)

@@ -79,7 +79,7 @@ TEST(Solidity, FacesThatTurnTheWrongWayAreTold) {
     expect_sheet_and(inverted(cube()), "1 of 1 parts faces inward");
 }
 
-/// No column through a voxel centre hits it, but its edges do not cancel.
+/// No column through a voxel centre hits the tiny part, but its edges do not cancel.
 TEST(Solidity, ATinyPartThatIsOpenMakesASheet) {
     Mesh dust = cube({1.001, 0.501, 0.501}, 0.0001);
     std::vector<Face> faces = faces_of(dust);

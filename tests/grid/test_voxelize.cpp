@@ -56,7 +56,7 @@ Errors errors_at_centres(const Bricks& level, Sign sign, const test::ExactSurfac
 
 void expect_exact_distances(const LevelStack& field, Sign sign, const test::RealMesh& real) {
     const test::ExactSurface exact(real.mesh, real.triangles, real.frame);
-    // Each winding number visits all triangles.
+    // Computing a winding number visits all triangles, so large meshes get fewer samples.
     const int samples = static_cast<int>(std::min<std::size_t>(1000, 10'000'000 / real.triangles.size()));
     for (const Bricks& level : field.levels()) {
         const Errors e = errors_at_centres(level, sign, exact, samples);
