@@ -77,7 +77,7 @@ TEST_F(Transforms, ATurnedCubeReachesAsFarAsItsEdges) {
         expect_distance((1.0 + height) * face, height, 0.002);
 }
 
-/// Where voxels fall on voxels, values are copied.
+/// If the voxels of the lattice coincide with those of a grid, the values are copied.
 TEST_F(Transforms, QuarterTurnsAndMirrorsKeepValues) {
     const auto plain = ball("plain", 1.0f, {0.3f, 0.1f, 0.2f}, 0.05f);
     const auto turned = plain->deepCopy(), mirrored = plain->deepCopy(), inverted = plain->deepCopy();
