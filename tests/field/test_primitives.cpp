@@ -44,8 +44,8 @@ const Capsule& Primitive<Capsule>::shape() {
 using Shapes = testing::Types<Plane, Sphere, Cuboid, Torus, Capsule>;
 TYPED_TEST_SUITE(Primitive, Shapes);
 
-/// A function is the distance to its own zero set where its gradient has length 1 and a step of its value along the
-/// gradient ends on the zero set.
+/// At a point, a function is the distance to its own zero set if its gradient has length 1 there, and if a step against
+/// the gradient, as long as the value, ends on the zero set.
 TYPED_TEST(Primitive, IsTheDistanceToItsOwnZeroSet) {
     const auto& shape = TestFixture::shape();
     std::mt19937 random(7);
