@@ -61,7 +61,7 @@ class Baked {
 
     /// One value per vertex. \throw std::runtime_error if a value is not in [0, 1].
     std::vector<float> by(std::string_view method) const;
-    /// Whether each vertex is inside the solid: whether a point within a voxel above it is.
+    /// Whether each vertex is inside the solid. It counts as inside if a point above it, within a voxel, is inside.
     std::vector<bool> buried() const;
     /// The ao by 1,024 exact rays.
     std::vector<float> truth() const;
@@ -84,8 +84,8 @@ Result against_exact(const Baked& baked, const Methods& methods, double bound);
 /// The largest difference of each method from one value, with the warnings as the note.
 Result against_value(const Baked& baked, float value, const Methods& methods, double bound);
 
-/// The largest difference of each method, or the RMSE, at the vertices of `reference`, which are the first ones of
-/// `mesh`.
+/// For each method, the largest difference between the values on both meshes, or the RMSE, at the vertices of
+/// `reference`. These must be the first vertices of `mesh`.
 Result against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound);
 Result rmse_against(const Mesh& reference, const Mesh& mesh, const Methods& methods, double bound);
 
@@ -100,11 +100,11 @@ Result refused(const std::function<void()>& attempt) {
     return {{{"refused", std::numeric_limits<double>::infinity(), 0.0}}};
 }
 
-/// A closed surface with bumps and hollows, 4,098 vertices around the origin, about 1 from it.
+/// A closed surface with bumps and hollows. Its 4,098 vertices are about 1 from the origin.
 Mesh bumpy();
 
-/// A base with `fins` thin walls of that thickness on it, 0.1 high, with gaps between them. D is about 1; lengths are
-/// in scene units. `turned` rotates it off the axes of the grid.
+/// A base with `fins` walls on it, which are 0.1 high and `thickness` thick, with gaps of `gap` between them. D is
+/// about 1; lengths are in scene units. `turned` rotates it off the axes of the grid.
 Mesh comb(int fins, double thickness, double gap, bool turned);
 
 }

@@ -84,7 +84,7 @@ TEST_P(Properties, RotationMattersNoMoreThanNoise) {
     }
 }
 
-// From 0.1 on, where the offset of rays no longer grows with the radius.
+// Tests radii from 0.1 on, where the offset of rays no longer grows with the radius.
 TEST_P(Properties, ALargerRadiusIsNeverBrighter) {
     const MeasuredMesh mesh("mesh", mesh_);
     const LevelStack field(voxelize(mesh.mesh, mesh.triangles, {.grid = {.radius = 0.5f}}));
