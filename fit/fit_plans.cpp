@@ -59,10 +59,11 @@ struct MethodFigures {
 struct Costs {
     std::vector<std::array<double, 4>> grid{};    // triangles voxelized and left out, cells, seconds
     std::vector<std::pair<double, double>> bvh{}; // triangles, seconds
-    std::array<std::vector<std::pair<double, double>>, radii.size()> rays{}; // triangles, seconds a ray
+    std::array<std::vector<std::pair<double, double>>, radii.size()> rays{}; // triangles, seconds per ray
 };
 
-/// Cost of a ray relative to one among 2^reference_doublings triangles.
+/// The cost of a ray in a mesh of `triangles` triangles, relative to a ray in a mesh of 2^reference_doublings
+/// triangles.
 double relative_ray_cost(double triangles, double slower_per_doubling) {
     return std::max(1.0 + slower_per_doubling * (std::log2(triangles) - reference_doublings), 0.3);
 }

@@ -118,7 +118,8 @@ class LabelledMesh {
     std::vector<float> distances_;
 };
 
-/// Vertices, and points of faces with the normal of the face or an interpolated one.
+/// Random vertices (a share of `of_vertices`), and random points of faces with the normal of the face or an
+/// interpolated one.
 std::vector<Surfel> random_surfels(const Mesh& mesh, std::size_t count, double of_vertices, std::mt19937& random) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const Frame frame = frame_of(mesh.box());
