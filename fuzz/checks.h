@@ -34,7 +34,7 @@ inline void check_message(std::string_view message, std::string_view file) {
             "a message is one line that begins with the name of the file: " + std::string(message));
 }
 
-/// Calls f(), which may throw only the exceptions of base/types.h, with messages about that file.
+/// Calls f(), which may throw only the exceptions of base/types.h, with messages about `file`.
 template <class F>
 void accept_refusals(std::string_view file, F&& f) {
     try {

@@ -6,7 +6,7 @@
 namespace alcove::fuzz {
 
 /// Checks that array sizes agree, that indices are in range, that a warning counts the vertices that are not finite,
-/// and that triangles and surfels are of finite vertices only.
+/// and that triangles and surfels use only finite vertices.
 void check_mesh(const Mesh& mesh);
 
 }
