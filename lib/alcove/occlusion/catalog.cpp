@@ -35,7 +35,7 @@ constexpr bool unbounded_radius() {
         return false;
 }
 
-/// The estimator with these settings; limits the radius of probing methods to max_probe_distance.
+/// The estimator with these settings. The radius of methods that probe the field is limited to max_probe_distance.
 template <class E>
 E estimator_of(const Settings& settings) {
     E estimator = with_settings<E>(settings);
@@ -93,14 +93,14 @@ std::optional<ParameterInfo> find_parameter(const MethodInfo& method, std::strin
     return {};
 }
 
-/// The first of the methods that has the parameter.
+/// The first method of `needed` that has the parameter.
 template <class M>
 auto owner_of(std::string_view parameter, std::span<const M* const> needed) {
     return std::find_if(needed.begin(), needed.end(),
                         [&](const M* method) { return find_parameter(*method, parameter).has_value(); });
 }
 
-/// The subset of `all` that goes to `method`: parameters that no earlier method of `needed` has.
+/// The settings of `all` for `method`. A parameter goes to the first method of `needed` that has it.
 Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
     Settings own{.radius = all.radius, .max_probe_distance = all.max_probe_distance, .labels = all.labels};
     for (const auto& setting : all.parameters)

@@ -29,16 +29,16 @@ struct ParameterInfo {
 struct Settings {
     float radius = 0.1f; ///< units of the field; may be infinite
     std::vector<std::pair<std::string, double>> parameters{};
-    /// Upper bound of the radius of methods that probe the field: beyond one diagonal from a mesh, probes carry no
-    /// information.
+    /// Upper bound on the radius for methods that probe the field: farther than one diagonal from a mesh, probes carry
+    /// no information.
     float max_probe_distance = 1.0f;
-    /// Reference ao at some surfels of the mesh: methods with a network fit it to them. May be null.
+    /// Reference ao at some surfels of the mesh, to which methods with a network fit that network. May be null.
     std::shared_ptr<const Labels> labels{};
 };
 
 /// The kind of samples that a method's sample-count parameter counts.
 enum class SampleKind { none, rays, probes };
-/// The name of that parameter: "rays", "samples" for probes, or "".
+/// The name of the sample-count parameter for this kind: "rays", "samples" for probes, or "".
 constexpr std::string_view parameter_of(SampleKind samples) {
     return samples == SampleKind::rays ? "rays" : samples == SampleKind::probes ? "samples" : "";
 }
@@ -60,9 +60,9 @@ struct Method : MethodInfo {
     bool needs_grid;        ///< probes the field
     bool needs_mesh;        ///< traces the triangles
     bool unbounded_radius;  ///< the radius may be infinite
-    float reference_radius; ///< radius that the constants of the formula assume; 0 if it has none
-    /// Evaluates the surfels in `order`, a spatial_order(), which the methods of one bake share. Ignores settings
-    /// the method does not have.
+    float reference_radius; ///< radius that the constants of the formula assume; 0 if they assume none
+    /// Evaluates the surfels in `order`, their spatial_order(), which all methods of a bake share. Ignores settings
+    /// that the method does not have.
     ChannelValues (*bake)(std::span<const Surfel>, std::span<const std::uint32_t> order, const Occluders&,
                           const Settings&, ChannelSet wanted, const Progress&);
 };
@@ -70,8 +70,8 @@ struct Method : MethodInfo {
 /// All methods, in documentation order.
 std::span<const Method> catalog();
 
-/// The method of that name, among those that give ao. \throw InputError for an unknown name, listing the known
-/// ones.
+/// Finds the method called `name` among those that give ao. \throw InputError for an unknown name; the message lists
+/// the known ones.
 const Method& find_method(std::string_view name);
 
 /// The methods to run for the wanted channels, each once: the chosen method for every channel it gives, and for
@@ -79,25 +79,26 @@ const Method& find_method(std::string_view name);
 /// ao_long is wanted and the chosen method does not give it: these are factors of one method's own ao.
 std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
 
-/// \throw InputError if a setting matches no parameter of the methods (the message lists the known parameters),
-/// or its value is out of range.
+/// Checks the settings. \throw InputError if a setting matches no parameter of the methods (the message lists the known
+/// parameters), or its value is out of range.
 void check_settings(std::span<const Method* const> methods, const Settings& settings);
 void check_settings(const MethodInfo& method, const Settings& settings);
 
-/// One of the methods for the wanted channels, with its part of the settings and channels.
+/// One of the methods that a bake runs, with its own settings and the channels that it computes.
 struct MethodRun {
     const Method* method;
     Settings settings;
     ChannelSet wanted;
 };
-/// \throw what methods_for() and check_settings() throw.
+/// The methods of methods_for(), with the settings and channels of each. \throw what methods_for() and check_settings()
+/// throw.
 std::vector<MethodRun> runs_for(const Method& chosen, const Settings& settings, ChannelSet wanted);
 
 /// Evaluates all wanted channels at the surfels (unit space). \throw what methods_for() and check_settings()
 /// throw, and InputError if a method needs a field or triangles and `occluders` has none.
 ChannelValues evaluate(std::span<const Surfel> surfels, const Occluders& occluders, const Method& chosen,
                        const Settings& settings, ChannelSet wanted, const Progress& progress = {});
-/// The same for callers that have the spatial_order() of the surfels.
+/// Like evaluate() above, for callers that already have the spatial_order() of the surfels.
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
                        const Occluders& occluders, const Method& chosen, const Settings& settings, ChannelSet wanted,
                        const Progress& progress = {});
@@ -118,7 +119,7 @@ struct MethodChoice {
 /// `samples` is out of its range.
 MethodChoice choose(const Method& method, std::optional<int> samples = {});
 
-/// The sample count from the settings, else the method's default.
+/// The method, with the sample count from the settings, or its default sample count if they have none.
 MethodChoice choice_of(const Method& method, const Settings& settings);
 
 /// Every method that gives ao, with defaults; guided, exact and traced also at several ray counts.

@@ -26,8 +26,8 @@ struct ChannelInfo {
     std::string_view name;
     std::size_t components; ///< floats per surfel
     float missing;          ///< value for surfels without a normal
-    bool inside;            ///< reads the field behind the surface, down to the radius
-    bool visibility;        ///< 0 for surfels that other faces cover
+    bool inside;            ///< whether it is computed from the field behind the surface, down to the radius
+    bool visibility;        ///< whether it is a visibility, which is 0 for surfels that other faces cover
 };
 
 inline constexpr std::array<ChannelInfo, 6> channels{{
@@ -52,7 +52,8 @@ struct PerChannel {
     constexpr const T& operator[](Channel channel) const { return values[static_cast<std::size_t>(channel)]; }
 };
 
-/// One entry per surfel: as many floats as the channel has components; empty for channels that were not requested.
+/// The values of each channel: for each surfel, as many floats as the channel has components. Empty for channels that
+/// were not requested.
 using ChannelValues = PerChannel<std::vector<float>>;
 
 /// A set of channels: those requested, or those an estimator provides.
@@ -62,11 +63,11 @@ constexpr ChannelSet operator|(Channel a, Channel b) {
     return ChannelSet(a) | b;
 }
 
-/// Output pointers of an estimator for one batch, surfel after surfel; null for channels that were not
-/// requested.
+/// Where an estimator writes the values of each channel for one batch, surfel after surfel. Null for channels that were
+/// not requested.
 using Outputs = PerChannel<float*>;
 
-/// "ao, convexity", in the order of `channels`.
+/// The names of the channels, in the order of `channels`: "ao, convexity".
 std::string names_of(ChannelSet attributes);
 
 }

@@ -79,8 +79,8 @@ constexpr ChannelSet channels_of() {
         return Channel::ao;
 }
 
-/// How far above the surface probes and rays start: the offset of rays or, in a grid, a tenth of a
-/// voxel if that is larger.
+/// The height above the surface at which probes and rays start: ray_offset() or, in a grid, a tenth of a voxel if that
+/// is larger.
 template <Field F>
 float start_height(const F& field, float radius) {
     return std::max(0.1f * resolution(field), ray_offset(radius));
@@ -125,8 +125,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 
 /// Computes every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels
 /// without a normal get ChannelInfo::missing; covered ones get 0 in channels of visibility. The values depend neither
-/// on the number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: the
-/// estimator, per surfel.
+/// on the number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: one
+/// evaluation of the estimator per surfel.
 template <class F, Estimator<F> E>
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const F& field,
                        const E& estimator, ChannelSet wanted, const Progress& progress = {}) {

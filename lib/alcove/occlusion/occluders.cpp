@@ -55,7 +55,7 @@ void RaySurface::Scene::build(std::span<const Vec3> positions, std::span<const T
         std::memcpy(to, items.data(), items.size_bytes());
         return to;
     };
-    // Takes a quarter of the build time of higher quality, and rays are as fast.
+    // Building takes a quarter of the time of a higher quality, and rays are as fast.
     constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
     rtcSetSceneBuildQuality(scene, quality);
     // Embree splits a quad into the same two triangles as a pair, with half as many primitives to build from.

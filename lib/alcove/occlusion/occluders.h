@@ -15,8 +15,8 @@ namespace alcove {
 
 struct RayBatch; // rays as arrays (field/detail/trace.h)
 
-/// How far above the surface rays of length `radius` start, unit space: close enough not to matter at the scale of the
-/// radius, but above the rounding of coordinates.
+/// The height above the surface at which rays of length `radius` start, unit space: small enough not to matter at the
+/// scale of the radius, but larger than the rounding errors of coordinates.
 float ray_offset(float radius);
 
 /// A point on a triangle.

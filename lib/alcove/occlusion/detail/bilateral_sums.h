@@ -21,7 +21,8 @@ struct Curve {
 ///     (1 − |p_i − p|²/reach²)₊²     (n_i·n)₊⁴     (1 − 0.4 Σ (probe_i − probe)²)₊²
 void weigh(const Curve& curve, std::size_t center, std::size_t first, float reach, float* weights);
 
-/// Σ w, Σ w g, Σ w g²; Σ w v, Σ w v g, Σ w v², with g relative to `origin`.
+/// Weighted sums over a window, with the weights w, the guide g (relative to `origin`) and the values v: Σ w, Σ w g, Σ
+/// w g², Σ w v, Σ w v g and Σ w v².
 struct Moments {
     float w, g, gg;
     float v, vg, vv;

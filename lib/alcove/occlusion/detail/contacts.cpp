@@ -104,7 +104,7 @@ class ContactSearch {
         }
     }
 
-    /// \return false for triangles without area.
+    /// Adds the triangle to `faces`, relative to the surfel. \return false if the triangle has no area.
     bool add_face(const Triangle& t, const Surfel& surfel, std::vector<NearFace>& faces) const {
         NearFace face;
         for (std::size_t k = 0; k < 3; ++k)
@@ -119,7 +119,7 @@ class ContactSearch {
     }
 
     bool between_solids(const Surfel& surfel) const {
-        // Off the normal, so that rays do not run along edges.
+        // The ray is tilted off the normal, so that it does not run along edges.
         const Vec3 up = glm::normalize(surfel.normal + Vec3(0.0123f, 0.0311f, 0.0217f));
         const float start = 2.0f * offset_;
         return is_inside(surface_, surfel.position + start * up, up, offset_) &&

@@ -66,7 +66,7 @@ inline std::uint32_t hash(const Vec3& p, std::uint32_t seed) {
 inline Vec2 fibonacci_point(int i, int n, float shift_u, float shift_v) {
     constexpr double golden = 0.6180339887498949;
     const double u = (i + 0.5) / n + shift_u, v = i * golden + shift_v;
-    // Keeps rounding to float from reaching 1.
+    // Rounding to float must not give 1.
     constexpr float below_one = 1.0f - 0x1p-24f;
     return {std::min(static_cast<float>(u - std::floor(u)), below_one),
             std::min(static_cast<float>(v - std::floor(v)), below_one)};

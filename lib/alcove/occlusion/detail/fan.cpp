@@ -31,7 +31,7 @@ bool has_area(std::span<const Vec3> positions, const Triangle& t) {
 
 }
 
-/// The directions that a ray passes, as seen from the hub: those in a plane, between its two ends.
+/// The directions from the hub to the points of a ray. They lie in one plane, between the directions to the two ends.
 struct Fan::Search {
     HalfSpace above, below, after_begin, before_end;
 
@@ -102,7 +102,7 @@ std::optional<Fan::Hit> Fan::hit(std::uint32_t triangle, const RaySegment& from_
     const Vec3d normal = glm::cross(a, b);
     const double toward = glm::dot(normal, from_hub.direction);
     const double distance = -glm::dot(normal, from_hub.origin) / toward;
-    if (!(distance >= from_hub.near && distance <= from_hub.far)) // or NaN: parallel
+    if (!(distance >= from_hub.near && distance <= from_hub.far)) // also for NaN: parallel to the triangle
         return {};
     const Vec3d p = from_hub.origin + distance * from_hub.direction;
     const double area2 = glm::dot(normal, normal);

@@ -33,7 +33,8 @@ class Fan {
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
 
-    /// The nearest hit, or any. Cost: logarithmic in the number of triangles, if they are thin.
+    /// Whether find() looks for the nearest hit or for any hit. Cost of find(): logarithmic in the number of triangles,
+    /// if they are thin.
     enum class Wanted { nearest, any };
     std::optional<Hit> find(const RaySegment& ray, Wanted wanted) const;
 
@@ -42,7 +43,7 @@ class Fan {
     struct Arc {
         Vec3d a, b;
     };
-    /// A box around the directions of arcs. The first child follows its parent.
+    /// A box around the directions of arcs. The first child follows its parent in the array.
     struct Node {
         Vec3d center, half;
         std::uint32_t begin, end;
@@ -64,8 +65,8 @@ class Fan {
 /// The fewest triangles around a vertex for which a Fan is faster.
 inline constexpr std::size_t smallest_fan = 8192;
 
-/// Fans around all vertices with at least `smallest_fan` triangles. If there are any, `others` gets the remaining
-/// triangles. Leaves out triangles that no ray can hit. Cost: about 2 ns per triangle without fans.
+/// Fans around all vertices that have at least `smallest_fan` triangles. If there are any fans, `others` gets the
+/// remaining triangles. Leaves out triangles that no ray can hit. Cost if there are no fans: about 2 ns per triangle.
 std::vector<Fan> fans_of(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                          std::vector<Triangle>& others);
 

@@ -34,11 +34,12 @@ struct Sources {
         });
     }
 
-    /// The reach of a fit between these ranks. A reach of twice the spacing has about twelve sources. It varies in
-    /// steps, so that few neighbouring blocks differ, since a change of the reach may be visible.
+    /// The reach of a fit for the ranks [begin, end). About twelve sources lie within twice their mean distance in
+    /// space. The reach is rounded to steps, so that few neighbouring blocks have different reaches: a change of the
+    /// reach may be visible.
     float reach(std::size_t begin, std::size_t end) const {
         constexpr std::size_t beside = 2;
-        constexpr float spacings_per_reach = 1.0f; // of neighbours along the curve, which are further apart
+        constexpr float spacings_per_reach = 1.0f; // spacings along the curve, which are larger than those in space
         constexpr float steps = 2.0f;              // per octave
         const auto at = [&](std::size_t rank) {
             return static_cast<std::size_t>(std::lower_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
@@ -79,7 +80,8 @@ class Interpolator {
         values_.resize(used_ * count());
     }
 
-    /// \return false if more than the allowed share would have to be evaluated
+    /// Evaluates and interpolates all surfels. \return false if more than the allowed share of them would have to be
+    /// evaluated
     bool run() {
         for (std::size_t stride = interpolation_.stride;; stride /= 4) {
             std::vector<std::uint32_t> next;
@@ -113,8 +115,8 @@ class Interpolator {
 
     std::size_t count() const { return indices_.size(); }
 
-    /// Chooses one of every `stride` surfels at random, since surfels of two sides or of grids alternate along the
-    /// curve.
+    /// Chooses one of every `stride` surfels at random: along the curve, surfels may alternate regularly, as those on
+    /// two sides of a sheet or those of a grid do.
     static bool is_chosen(std::uint32_t rank, std::size_t stride) {
         return rank % stride == hash(static_cast<std::uint32_t>(rank / stride)) % stride;
     }
@@ -171,7 +173,7 @@ class Interpolator {
 
     void interpolate_block(std::size_t begin, std::size_t end, const Sources& sources, const SurfelCells& cells,
                            SurfelCells::Found& found, FitSources& near) {
-        constexpr double most_cells = 512.0; // with more, evaluation is faster
+        constexpr double most_cells = 512.0; // with more cells, evaluation is faster than interpolation
         std::optional<Bounds> bounds;
         for (std::size_t i = begin; i < end; ++i)
             if (states_[i] == State::unknown) {
@@ -208,7 +210,7 @@ class Interpolator {
     }
 
     void interpolate_at(std::size_t i, const FitSources::Arrays& near, float reach) {
-        constexpr float least_weight = 0.5f; // less than one source close by
+        constexpr float least_weight = 0.5f; // one source close by weighs more
         const LocalFit fit = local_fit(near, {places_[i].position, places_[i].normal}, reach, used_);
         if (!(fit.weight >= least_weight) || !(fit.deviation <= interpolation_.tolerance)) // also NaN
             return;
@@ -231,7 +233,7 @@ class Interpolator {
     std::span<const Surfel> surfels_;
     std::size_t used_;                   // values per surfel
     HugeVector<std::uint32_t> ranks_;    // index into the next arrays, by rank in the order
-    HugeVector<Place> places_;           // along the curve, those of equal surfels merged
+    HugeVector<Place> places_;           // along the curve; equal surfels are merged
     std::vector<std::uint32_t> indices_; // index of the first surfel of each place
     HugeVector<float> values_;
     HugeVector<State> states_;

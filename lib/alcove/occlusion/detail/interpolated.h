@@ -9,9 +9,10 @@
 
 namespace alcove {
 
-/// Where to evaluate. A method is evaluated at every `stride`-th surfel along the Morton curve. Where its ao deviates
-/// by more than `tolerance` from a local linear fit, it is also evaluated at every (stride / 4)-th surfel, and so on,
-/// finally at all of them. The other surfels get the values of the fit (see local_fit()).
+/// Where to evaluate a method, and where to interpolate. The method is evaluated at every `stride`-th surfel along the
+/// Morton curve. Where its ao deviates by more than `tolerance` from a local linear fit, it is also evaluated at every
+/// (stride / 4)-th surfel, and so on, finally at all of them. The other surfels get the values of the fit (see
+/// local_fit()).
 struct Interpolation {
     std::size_t stride = 16; ///< a power of 4, > 1
     float tolerance = 0.02f; ///< > 0
@@ -20,7 +21,7 @@ struct Interpolation {
 
 struct InterpolatedValues {
     ChannelValues values;
-    double share = 1.0; ///< of the surfels with a normal, at which the method was evaluated
+    double share = 1.0; ///< share of the surfels with a normal for which the method was evaluated
 };
 
 /// Completes surfels before they are evaluated, for example with their contacts. `indices` are their indices among all

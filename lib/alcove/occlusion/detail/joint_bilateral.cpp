@@ -12,7 +12,7 @@
 namespace alcove {
 namespace {
 
-using Probes = ThirtyEightProbes; // more would take longer than another ray
+using Probes = ThirtyEightProbes; // more probes would take longer than another ray
 static_assert(Curve::probes == Probes::normal.size() + Probes::rings.size());
 
 /// The length of the mean of cosine-weighted directions if all are open: ∫ cos²θ dω / π.
@@ -136,9 +136,9 @@ void JointBilateral::fit_model() {
         sum += open, sum2 += double(open) * open;
         unexplained += double(error) * error - 1.3 * noise_ * variance_of(open);
     }
-    // On scans, the standard deviation of the model's error is 0.2 to 0.4 times that of the truth, which is close to
-    // that of the predictions: hence 0.16 = 0.4². The error is larger where the residuals exceed the noise of the rays,
-    // which is at most 1.3 times noise_.
+    // On scans, the standard deviation of the model's error is 0.2 to 0.4 times that of the true ao, and the
+    // predictions vary about as much as the true ao. Hence the factor 0.16 = 0.4². The error is larger where the
+    // residuals exceed the noise of the rays, which is at most 1.3 times noise_.
     const auto count = static_cast<double>(size());
     const double variance = sum2 / count - (sum / count) * (sum / count);
     model_variance_ = static_cast<float>(std::max({0.16 * variance, unexplained / count, 4e-4}));

@@ -57,8 +57,8 @@ class JointBilateral {
     const bool with_bent_;
     /// Filter radius in median spacings along the curve: smaller for more rays. Measured on scans.
     const float spacings_;
-    /// Variance of the mean of one surfel's rays, relative to the variance of a single ray; and the variance of
-    /// their mean direction. Powers of the ray count, measured for shifted lattices.
+    /// Variance of the mean of one surfel's rays, relative to the variance of a single ray; and the variance of their
+    /// mean direction. Both are powers of the ray count, measured for shifted lattices.
     const float noise_, noise_of_bent_;
     std::vector<Surfel> surfels_;
     std::vector<std::uint32_t> index_; ///< index into surfels_ by rank

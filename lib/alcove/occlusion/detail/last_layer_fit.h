@@ -9,8 +9,8 @@
 
 namespace alcove {
 
-/// Ridge regression of the errors of a network on its hidden values (Hoerl and Kennard 1970): its last layer changes
-/// only as far as the examples support it, and its value on planes not at all.
+/// Ridge regression of the errors of a network on its hidden values (Hoerl and Kennard 1970). The last layer changes
+/// only as far as the examples support a change. The value on planes does not change.
 class LastLayerFit {
   public:
     explicit LastLayerFit(const RingNetwork::LastLayer& trained);

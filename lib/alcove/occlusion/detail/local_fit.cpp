@@ -17,7 +17,7 @@ namespace alcove {
 /// Weighted sums over the sources. a and b are coordinates on the tangent plane.
 struct FitSums {
     float w, wa, wb, waa, wab, wbb;
-    float wvv; ///< of the first value
+    float wvv; ///< for the first value
     SurfelValues wv, wva, wvb;
 };
 

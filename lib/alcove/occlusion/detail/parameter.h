@@ -16,7 +16,7 @@
 
 namespace alcove {
 
-/// A member of E that a user can set. Its default is that of the struct.
+/// A member of E that a user can set. Its default is the initial value in the struct.
 template <class E>
 struct Parameter {
     std::string_view name;

@@ -37,7 +37,7 @@ class RingNetwork {
 
     using Hidden = std::array<SurfelBatch::Values, hidden>;
     /// h(x_i, c) − h(0, c) for all lanes of a batch; `inputs` are n, then r_a for each azimuth. Cost: 0.03 ns per
-    /// coefficient and surfel with AVX2, where W to W₂ count once per azimuth.
+    /// coefficient and surfel with AVX2. The coefficients from W to W₂ count once per azimuth.
     void hidden_layer(std::span<const SurfelBatch::Values> inputs, const Condition& condition, Hidden& h) const;
     /// values[i] = N(x_i, c) − N(0, c).
     static void value(const Hidden& h, const LastLayer& last, SurfelBatch::Values& values);

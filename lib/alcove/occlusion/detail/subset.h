@@ -12,7 +12,7 @@ namespace alcove {
 /// Whether two surfels get the same values.
 bool is_same(const Surfel& a, const Surfel& b);
 
-/// The median distance from surfel `i` to the four before and the four after it along a curve; 0 without any.
+/// The median distance from surfel `i` to the four before and the four after it along a curve; 0 if there are none.
 float median_spacing(std::span<const Surfel> curve, std::size_t i);
 
 /// At most `max_count` of the items, at even steps.

@@ -14,11 +14,12 @@ namespace {
 
 constexpr std::size_t max_surfels = 4096;
 
-/// The distance in voxels between two faces of a solid, or two sheets, from which a grid resolves them in any
+/// The smallest distance, in voxels, between two faces of a solid, or between two sheets, that a grid resolves in any
 /// alignment.
 constexpr float resolved_solid = 1.5f, resolved_sheet = 2.5f;
 
-/// Start of the rays, unit space: clears the rounding error of the faces around the surfel.
+/// The height above the surfel at which rays start, unit space: it exceeds the rounding error of the faces around the
+/// surfel.
 constexpr float start = 2e-6f;
 
 /// The first face that a ray hits.
@@ -27,7 +28,7 @@ struct NextFace {
     bool back = false; ///< seen from behind
 };
 
-/// The next face of each surfel along its normal (side 1) or against it (-1), within `reach`.
+/// The next face of each surfel along its normal (side 1) or against it (-1), within `reach` (unit space).
 std::vector<NextFace> next_faces(const std::vector<Surfel>& surfels, const RaySurface& surface, float side,
                                  float reach) {
     std::vector<NextFace> faces(surfels.size());

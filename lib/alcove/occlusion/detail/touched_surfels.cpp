@@ -18,7 +18,7 @@ Bounds bounds_of(const Vec3* positions, const TrianglePair& pair, float margin) 
     return {bounds.low - margin, bounds.high + margin};
 }
 
-/// Twice the median, over a sample of the pairs, of their largest extents.
+/// Twice the median of the largest extents of a sample of the pairs.
 float cell_for(const Vec3* positions, std::span<const TrianglePair> pairs) {
     constexpr std::size_t sample = 1024;
     std::vector<float> sizes;
@@ -32,9 +32,9 @@ float cell_for(const Vec3* positions, std::span<const TrianglePair> pairs) {
     return 2.0f * *median;
 }
 
-/// Whether a plane through an edge, at right angles to the triangle, has the triangle on one side and the point beyond
-/// `distance` on the other. This holds for most points, and the test takes a third of the time of
-/// closest_on_triangle().
+/// Whether a plane through an edge, at right angles to the triangle, has the triangle on one side, and the point on the
+/// other side, farther than `distance` from the plane. This is true of most points, and this test takes a third of the
+/// time of closest_on_triangle().
 bool is_beside(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p, double distance) {
     const Vec3d normal = glm::cross(b - a, c - a);
     const auto beyond = [&](const Vec3d& from, const Vec3d& to) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double in_plane = 0.02; // sine of the largest angle between faces that count as coplanar
 constexpr double pi = std::numbers::pi;
 
-/// Which sides of a plane through the surfel points lie on.
+/// On which sides of a plane through the surfel some points lie.
 struct Sides {
     bool front = false, back = false;
 
@@ -55,7 +55,7 @@ bool is_duplicate(const NearFace& face, std::span<const NearFace> own) {
     });
 }
 
-/// The angles around a surfel that faces in its plane fill.
+/// The ranges of angles around a surfel that are filled by faces in its plane.
 class FilledAngles {
   public:
     explicit FilledAngles(const Vec3d& normal)
@@ -128,14 +128,14 @@ bool is_covered(std::span<const NearFace> own, std::span<const NearFace* const> 
     return !duplicates.empty() && filled.full() && between_solids();
 }
 
-/// Whether a face in the plane of the surfel's own faces covers them: it faces against them, and is not behind them, as
-/// the other side of a thin plate would be.
+/// Whether `face`, which lies in the plane of `own`, covers it: `face` faces against `own` and is not behind it. The
+/// other side of a thin plate is behind it.
 bool faces_against(const NearFace& face, const NearFace& own) {
     constexpr double rounding = 2.5e-7; // of coordinates near 0.5
     return glm::dot(face.normal, own.normal) < 0.0 && glm::dot(face.corners[0], own.normal) >= -rounding;
 }
 
-/// Whether a face is in front of one of the own faces, which the next face across a convex edge is not.
+/// Whether a face is in front of one of the own faces. The next face across a convex edge is not in front.
 bool is_before(const NearFace& face, std::span<const NearFace> own, const Vec3d& normal, double offset) {
     return std::any_of(own.begin(), own.end(), [&](const NearFace& own_face) {
         const Sides sides = sides_of({&face, 1}, own_face.normal, offset);

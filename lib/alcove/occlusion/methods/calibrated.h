@@ -15,14 +15,14 @@ namespace alcove {
 ///
 /// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. These
 /// meshes, and the error on meshes outside the training set, are in docs/calibrated.md. All x are independent of scale.
-/// As far as the bands of the field reach, they are 0 over a plane, so ao is 1 there. Probes do not resolve contacts:
+/// Over a plane, as far as the bands of the field reach, all x are 0, so ao is 1. Probes do not resolve contacts:
 /// surfels that touch other faces get rays on the mesh, as in Exact, or in the field, as in Traced. Source: probes
 /// along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13, 38 or 63 map() calls per surfel, and
 /// 0.05, 0.1 or 0.2 µs.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
     int samples = 38;    ///< maximum number of probes, >= 13: there are networks for 13, 38 and 63
-    std::optional<RingNetwork::LastLayer> last{}; ///< of the network, see fit(); empty: as trained
+    std::optional<RingNetwork::LastLayer> last{}; ///< last layer of the network, see fit(); empty: as trained
     std::optional<RaySurface> mesh{};             ///< where surfels in contact trace rays; empty: in the field
 
     static constexpr int rays_at_contacts = 64;

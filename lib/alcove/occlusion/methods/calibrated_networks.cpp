@@ -10,7 +10,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the coefficients are stored as little-endian floats");
 
-// CMake writes the bytes of calibrated_*.f32 to these files.
+// CMake writes the bytes of calibrated_*.f32 to the .inc files.
 constexpr unsigned char thirteen[] = {
 #include "alcove/occlusion/calibrated_13.inc"
 };

@@ -1,5 +1,5 @@
-/// The probes of the calibrated estimator and the inputs of its networks. Also used by the program that makes the
-/// examples they are trained on.
+/// The probes of the calibrated estimator and the inputs of its networks. The program that makes the training examples
+/// of these networks also uses them.
 #pragma once
 
 #include "alcove/occlusion/detail/directions.h"

@@ -51,8 +51,8 @@ struct Guided {
     }
 };
 
-/// As the general evaluate(): every wanted channel that Guided gives, independent of the number of threads and the
-/// order of the surfels. `field` and `surface` must describe the same mesh.
+/// Like the general evaluate(), computes every wanted channel that Guided gives. The values depend neither on the
+/// number of threads nor on the order of the surfels. `field` and `surface` must describe the same mesh.
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const AnyField& field,
                        const RaySurface& surface, const Guided& guided, ChannelSet wanted,
                        const Progress& progress = {});

@@ -21,8 +21,8 @@ struct Inverted {
     bool two_sided() const { return alcove::two_sided(field); }
 };
 
-/// thickness = min(radius, distance from p along −n to the next surface), sphere-traced with one ray (Hart 1996).
-/// In a solid the ray starts at most half a voxel deep, so the thickness of thinner walls is wrong by at most
+/// thickness = min(radius, distance from p along −n to the next surface), sphere-traced with one ray (Hart 1996). In a
+/// solid the ray starts at most half a voxel deep, so the error is at most half a voxel for walls that are thinner than
 /// that. Behind a sheet it starts 1.9 voxels deep and misses anything nearer. Cost: 4–20 map() calls per surfel.
 struct Thickness {
     float radius = 0.1f; ///< largest thickness, > 0; may be infinite
@@ -74,8 +74,8 @@ struct Thickness {
     }
 
   private:
-    /// Advances each depth through the empty balls around probes, each probe four times as deep as the last, as long
-    /// as the balls overlap. A ray along the normal moves straight away from the surface, so this gets much further
+    /// Increases each depth as far as the empty balls around a series of probes overlap. Each probe is four times as
+    /// deep as the one before. A ray along the normal moves straight away from the surface, so this gets much further
     /// than sphere tracing from ball to ball (Keinert et al. 2014).
     template <Field F>
     static void leave_surface(const F& inside, const SurfelBatch& turned, float clearance, float far, float* depths) {

@@ -11,11 +11,11 @@
 
 namespace alcove {
 
-/// Finds start heights for rays, see Surfel::origin(): where the field is at least `clearance`, but at most `highest`.
-/// A surfel is on the true surface, not on the interpolated surface of the grid, and at a sharp edge, moving along the
-/// normal gains little distance from the faces. A fixed height that is safe for all surfels (a voxel) would cause the
-/// largest error of tracing through a grid; these heights cause a tenth of that error. Cost: 1 to 6 map() calls per
-/// surfel.
+/// Finds the heights at which rays start (see Surfel::origin()): where the field is at least `clearance`. No height
+/// exceeds `highest`. A surfel is on the true surface, not on the interpolated surface of the grid, and at a sharp
+/// edge, moving along the normal gains little distance from the faces. A fixed height that is safe for all surfels (a
+/// voxel) would cause the largest error of tracing through a grid; these heights cause a tenth of that error. Cost: 1
+/// to 6 map() calls per surfel.
 template <Field F>
 void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest, float* heights) {
     ProbeBatch probes;

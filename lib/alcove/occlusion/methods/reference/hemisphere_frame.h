@@ -1,4 +1,4 @@
-/// Moves directions that are the same for every surfel into the hemisphere of its normal.
+/// Maps a fixed set of directions, shared by all surfels, into the hemisphere around the normal of one surfel.
 #pragma once
 
 #include "alcove/occlusion/detail/directions.h"

@@ -1,5 +1,5 @@
-/// The pseudo-random numbers of the reference formulas. In double precision, because single precision gives
-/// different numbers on different machines.
+/// The pseudo-random numbers of the reference formulas. They are computed in double precision, because single precision
+/// gives different numbers on different machines.
 #pragma once
 
 #include <array>
