@@ -125,7 +125,7 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
     const double extent = frame_of(box).diagonal;
     if (points.empty())
         return Camera(target + 2.0 * toward_eye, target, up, options.fov, size);
-    // A little in front of the nearest point even if all points are on the view axis.
+    // The eye is a little in front of the nearest point, even if all points are on the view axis.
     const double depth = std::min({horizontal.depth(), vertical.depth(), nearest - 1e-2 * extent});
     Vec3d eye = target + depth * orientation.forward();
     Vec3d aim = target;

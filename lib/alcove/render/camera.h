@@ -36,7 +36,7 @@ class Camera {
 
     const Vec3d& eye() const { return eye_; }
     const Vec3d& right() const { return right_; }
-    const Vec3d& up() const { return up_; } ///< perpendicular to the view, unlike the constructor's
+    const Vec3d& up() const { return up_; } ///< perpendicular to the view, unlike `up` of the constructor
     const Vec3d& forward() const { return forward_; }
     ImageSize size() const { return size_; }
     double fov() const;                                              ///< degrees across the width

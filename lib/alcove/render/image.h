@@ -98,11 +98,11 @@ enum class Precision { half, single };
 void write_exr(const Image& image, const std::filesystem::path& file, const ImageHeader& header,
                Precision precision = Precision::half);
 
-/// Encodes one pass of the image as PNG, eight bits per channel, without alpha. Beauty is sRGB over a light backdrop,
-/// ao and shadow are sRGB over white. Over the backdrop of beauty: convexity unchanged, normals mapped from [−1, 1] to
-/// [0, 1], positions with each coordinate mapped from its range to [0, 1], and one colour per object. Depth: near is
-/// white, far dark grey, the background black. Steps: the highest count is white. \throw LimitError if the image is too
-/// large for a PNG.
+/// Encodes one pass of the image as PNG, eight bits per channel, without alpha. Beauty is sRGB over a light backdrop;
+/// ao and shadow are sRGB over white. The other passes except depth and steps are shown over the same backdrop:
+/// convexity unchanged, normals mapped from [−1, 1] to [0, 1], each coordinate of positions mapped from its range to
+/// [0, 1], and objects in one colour each. In depth, near surfaces are white, far ones dark grey, and the background is
+/// black. In steps, the highest count is white. \throw LimitError if the image is too large for a PNG.
 std::string encode_png(const Image& image, Pass pass);
 
 /// Writes encode_png() to a file, completely or not at all. \throw IoError if it cannot be written, and what

@@ -146,7 +146,7 @@ inline constexpr ObjectId no_object = 0;
 
 struct Texture; // texels by UV (render/detail/texture.h)
 
-/// The vectors have one value per position of the surface.
+/// A mesh to render. Each vector has one value per position of the surface.
 struct RenderableMesh {
     RaySurface surface;            ///< unit space
     std::vector<ObjectId> objects; ///< part number
@@ -162,7 +162,7 @@ struct Part {
     Material material{};
     bool colored = false;      ///< the colours of the mesh replace the colour of the material
     bool painted = false;      ///< the brightness of the colours of the mesh multiplies ao
-    bool on_triangles = false; ///< the triangles are the only surface: none where the field extends beyond them
+    bool on_triangles = false; ///< the triangles are the only surface: where only the field extends, nothing is shown
 };
 
 /// A plane, visible from its front only, that fades into the background.
@@ -195,7 +195,7 @@ const Material& material_of(const Renderable& renderable, ObjectId object);
 /// Whether any material has a colour for convex edges.
 bool has_edge_colors(const Renderable& renderable);
 
-/// The ground with that object number, or null if it is a part.
+/// The ground whose number is `object`, or null if `object` is a part.
 const Ground* ground_of(const Renderable& renderable, ObjectId object);
 
 /// The cells that the surface of a field passes through, to aim a camera at.

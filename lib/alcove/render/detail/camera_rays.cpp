@@ -9,7 +9,7 @@
 namespace alcove {
 namespace {
 
-/// Voxels from a hit to the probes for the local slope, and to the point from where a ray continues.
+/// Distance, in voxels, from a hit to the probes for the local slope, and to the point from which the ray continues.
 constexpr float nearness = 0.1f;
 
 /// Over-relaxation of the steps: a tenth faster on planes seen at a grazing angle, a twentieth slower elsewhere.
@@ -159,7 +159,7 @@ void CameraRays::trace_tile(const PixelRegion& tile, const PixelRegion& region, 
                 if (start < furthest_ || !renderable_.grounds.empty()) {
                     const Vec3d ray = camera_.direction(x + double(place.x), y + double(place.y));
                     const GroundHit ground = meet_ground(ray);
-                    // Any hit in front of it overwrites this later.
+                    // Any hit in front of the ground overwrites this later.
                     if (ground.object != no_object)
                         set_ground(ray, ground, at, hits);
                     Span span(eye_, ray, low_, high_);
@@ -262,14 +262,15 @@ void CameraRays::meet_parts(Batch& met, Hits& hits) const {
 }
 
 /// Sets the hits and returns the rays to trace further: for a ray from behind a sheet, distances jump before it reaches
-/// the face. A hit that is clearly a jump is skipped. A hit that may be one is kept unless the ray leaves a face right
-/// behind it.
+/// the face. A hit that is clearly a jump is skipped. A hit that may be a jump is kept, unless the ray leaves a face
+/// right behind the hit.
 CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits) const {
     const Batch met = traced(rays, hits);
     const float voxel = precision_.voxel, near = nearness * voxel;
     const Values error = distances(places(met));
     const Gradients slope = differences(field_, places(met), near);
-    // Distances are valid in the cells of a face; differences around a point on the face would reach behind them.
+    // Distances are valid in the cells of a face. Differences around a point on the face would reach behind these
+    // cells.
     Places in_front;
     for (std::size_t i = 0; i < met.count; ++i)
         in_front.add(met.place(i) + precision_.difference * normalized(slope[i]));
@@ -372,7 +373,7 @@ CameraRays::Values CameraRays::distances(const Places& places) const {
     return values;
 }
 
-/// Central differences of the field along the axes, over a distance of 2h, by which they are not divided.
+/// Differences f(x + h) − f(x − h) of the field along each axis, not divided by 2h.
 CameraRays::Gradients CameraRays::differences(const AnyField& field, const Places& places, float h) {
     Gradients gradient;
     Values above, below;

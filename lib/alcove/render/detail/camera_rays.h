@@ -17,20 +17,20 @@ struct PixelRegion {
     int width = 0, height = 0;
 
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-    /// Number of squares of side `side` that cover it; those at the right and lower edge are cut.
+    /// Number of squares with the given side that cover the region. Squares at the right and lower edge are cut.
     std::size_t tiles(int side) const {
         return static_cast<std::size_t>((width + side - 1) / side) *
                static_cast<std::size_t>((height + side - 1) / side);
     }
 };
 
-/// The hits of image samples, one entry per sample.
+/// The hits of image samples. Each vector has one entry per sample.
 struct Hits {
     std::vector<Surfel> surfels;   ///< unit space, normals toward the eye; without a normal if the ray missed
     std::vector<float> depths;     ///< along the view axis, scene units
     std::vector<ObjectId> objects; ///< no_object if the ray missed
-    std::vector<Vec3> colors;      ///< of the mesh, linear light; empty if no mesh has any
-    std::vector<Triangle> faces;   ///< of the mesh; empty without a mesh, all corners 0 if snap() found no triangle
+    std::vector<Vec3> colors;      ///< colours of the mesh in linear light; empty if no mesh has colours
+    std::vector<Triangle> faces;   ///< triangles hit; empty without a mesh; all corners 0 if snap() found no triangle
     std::vector<float> steps;      ///< map() calls along each ray; empty if not requested
 
     void resize(std::size_t samples, bool with_steps) {
@@ -44,8 +44,8 @@ struct Hits {
 /// Tolerances in unit space, derived from the resolution of a field.
 struct RayPrecision {
     float voxel;         ///< 0 for analytic fields
-    float hit_distance;  ///< for two-sided fields; others are hit where the sign changes
-    float shortest_step; ///< of a ray
+    float hit_distance;  ///< distance that counts as a hit in two-sided fields; others are hit where the sign changes
+    float shortest_step; ///< shortest step of a ray
     float difference;    ///< half width of the central differences for normals
     float slack;         ///< margin around the box: behind a sheet, distances jump up to two voxels off its faces
 
@@ -89,7 +89,8 @@ class CameraRays {
             owner[count] = index;
             push_back({origin, direction}, start);
         }
-        /// Adds a ray of another batch, with its origin moved ahead by `ahead`.
+        /// Adds ray `i` of another batch, with its origin moved ahead by `ahead`. `start` is the length travelled,
+        /// measured from the old origin.
         void add(const Batch& other, std::size_t i, float start, float ahead) {
             add(other.origin(i) + ahead * other.direction(i), other.direction(i), start - ahead,
                 other.before[i] + static_cast<double>(ahead), other.owner[i]);

@@ -21,15 +21,16 @@ constexpr float steady_slope = 0.95f;
 /// hit's tangent plane by more than min_bend voxels.
 constexpr float bend_reach = 1.5f, min_bend = 0.15f;
 
-/// Voxels from a hit to the samples that search for the sides of an edge: beyond the cells that the edge crosses.
+/// Distance, in voxels, from a hit to the samples that search for the sides of an edge: beyond the cells that the edge
+/// crosses.
 constexpr float side_reach = 2.25f;
 
-/// Half width of the central differences, voxels; and the tolerance of the gradient length, which is 1 where all
-/// distances nearby are distances to one plane.
+/// Half width of the central differences, in voxels. Tolerance of the gradient length, which is 1 where all distances
+/// nearby are distances to one plane.
 constexpr float difference = 0.25f, flatness = 0.002f;
 
-/// Largest cosine between the normals of two sides, and smallest cosine between the normals of one side; largest
-/// error of the planes at a sample, voxels.
+/// Largest cosine between the normals of two sides; smallest cosine between the normals of one side; largest error of
+/// the planes at a sample, in voxels.
 constexpr float max_turn_cosine = 0.9f, same_side = 0.995f, misfit = 0.05f;
 
 /// Largest move of a hit along its ray, voxels.
@@ -57,7 +58,7 @@ struct Sample {
 /// The planes of a convex or concave edge or corner.
 class Crease {
   public:
-    /// Empty if the samples do not fit an edge.
+    /// The crease that fits the samples; std::nullopt if none does.
     static std::optional<Crease> through(std::span<const Sample> samples, float voxel) {
         Crease crease;
         std::vector<Sample> flat;
@@ -85,7 +86,8 @@ class Crease {
         return std::nullopt;
     }
 
-    /// The distance along a ray through the hit at which it enters the solid, if between -far and far.
+    /// For a ray through the hit: the distance from the hit to the point where the ray enters the solid, if it is
+    /// between -far and far.
     std::optional<float> meet(const Vec3& direction, float far) const {
         float enter = convex_ ? -far : far, leave = far;
         for (const Side& side : sides_) {

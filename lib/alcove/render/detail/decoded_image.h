@@ -18,8 +18,8 @@ struct DecodedImage {
 
 enum class Decode { header, all };
 
-/// `name` is for messages. \throw InputError if the image is damaged or neither a PNG nor a JPEG, LimitError if it does
-/// not fit in memory; both name it.
+/// Decodes an image. Messages contain `name`. \throw InputError if the image is damaged or neither a PNG nor a JPEG,
+/// LimitError if it does not fit in memory.
 DecodedImage decode_image(std::string_view bytes, const std::string& name, Decode what);
 
 }

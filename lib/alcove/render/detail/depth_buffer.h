@@ -10,7 +10,7 @@ namespace alcove {
 
 struct DepthBuffer {
     Camera camera;
-    /// Along the view axis at the centre of each pixel, scene units; far_depth on the background.
+    /// Depth along the view axis, at the centre of each pixel, in scene units; far_depth on the background.
     std::vector<float> depth;
     std::vector<Vec3> normal; ///< scene directions, unit length; zero on the background
 

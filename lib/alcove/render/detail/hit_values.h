@@ -11,7 +11,7 @@ struct HitValues {
     std::vector<float> ao, convexity, shadow;
 };
 
-/// `surroundings` are the occluders; `eye` is in unit space.
+/// Computes the values at all hits. `surroundings` are the occluders; `eye` is in unit space.
 HitValues values_of(const Hits& hits, const Renderable& renderable, const Occluders& surroundings, const Vec3d& eye,
                     const RenderOptions& options, const Progress& progress);
 

@@ -5,7 +5,7 @@
 
 namespace alcove {
 
-/// \throw LimitError if decoding the image takes more memory than the limit.
+/// Checks the memory for decoding an image. \throw LimitError if it exceeds the limit.
 void check_memory(const DecodedImage& image, const std::string& name);
 
 bool is_png(std::string_view bytes);

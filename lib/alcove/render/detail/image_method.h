@@ -19,7 +19,7 @@ struct ImageMethod : MethodInfo {
 
 std::span<const ImageMethod> image_methods();
 
-/// The image method of that name, or null.
+/// The image method called `name`, or null.
 const ImageMethod* find_image_method(std::string_view name);
 
 }

@@ -30,14 +30,15 @@ struct Decoder {
     std::longjmp(decoder.failed, 1);
 }
 
-/// An image that ends too early would be grey from there on.
+/// Fails if an image ends too early: libjpeg only warns, and the image would be grey from there on.
 void take_warning(j_common_ptr jpeg, int level) {
     const int code = jpeg->err->msg_code;
     if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER))
         fail(jpeg);
 }
 
-/// Each scan of a progressive JPEG takes as long as a whole image, however few bytes it has.
+/// Limits the number of scans: each scan of a progressive JPEG takes as long as a whole image, however few bytes it
+/// has.
 void limit_scans(j_common_ptr jpeg) {
     constexpr int most = 100;
     auto& decoder = *static_cast<Decoder*>(jpeg->client_data);

@@ -6,9 +6,9 @@
 namespace alcove {
 
 /// Moves the samples [begin, end) onto the nearest triangle of their object within three voxels along their rays.
-/// Updates positions, depths, normals if the mesh has them (toward the eye), and colours if `hits.colors` is not
-/// empty. A sample without such a triangle shows what its ray meets next, if its part is on_triangles; otherwise
-/// it stays, with the colour of the nearest triangle. The renderable must have a mesh. Thread-safe. Cost: one ray per
+/// Updates positions, depths, normals if the mesh has them (toward the eye), and colours if `hits.colors` is not empty.
+/// If there is no such triangle, a sample of a part that is on_triangles shows what its ray meets next. Other samples
+/// stay, with the colour of the nearest triangle. The renderable must have a mesh. Thread-safe. Cost: one ray per
 /// sample.
 void snap(const Renderable& renderable, const CameraRays& camera_rays, std::size_t begin, std::size_t end, Hits& hits);
 

@@ -12,7 +12,7 @@ struct Texture {
     int width = 0, height = 0;
     std::vector<Vec3> texels; ///< row by row from the top, where v is 1
 
-    /// Bilinear; repeats outside of the unit square.
+    /// The colour at a UV, interpolated bilinearly. The texture repeats outside of the unit square.
     Vec3 at(const Vec2& uv) const;
 };
 
