@@ -49,7 +49,7 @@ float named_voxel(const std::vector<LoadedShape>& shapes, const Frame& frame) {
     return std::isfinite(finest) ? static_cast<float>(finest / frame.diagonal) : 0.0f;
 }
 
-/// Adds the triangles of the meshes that are objects.
+/// Adds the memory for the triangles of the meshes that are objects.
 void add_ray_triangles(const std::vector<LoadedShape>& shapes, MemoryEstimate& memory) {
     for (const LoadedShape& loaded : shapes)
         if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape))
@@ -102,8 +102,8 @@ bool has_edge_colors(const Scene& scene) {
                        [](const SceneObject& object) { return object.material.edge_color.has_value(); });
 }
 
-/// The height of the lowest point, scene units. Exact for analytic shapes and meshes; otherwise from surface points
-/// 1/64 of the shape apart, which miss a round bottom by a thousandth of the shape.
+/// The height of the lowest point, scene units. Exact for analytic shapes and meshes. Otherwise, it is that of surface
+/// points whose spacing is 1/64 of the size of the shape. These miss a round bottom by a thousandth of the size.
 double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& frame, const Vec3d& up) {
     if (const std::optional<double> height = support(loaded.object->shape, loaded.pose, -up))
         return -*height;
@@ -128,7 +128,7 @@ double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& fra
 
 }
 
-/// Rays of guided per sample of a pixel. With four samples per pixel, the RMSE of its ao was 0.018, 0.012 and 0.007 at
+/// Rays of guided per sample of a pixel. With four samples per pixel, the RMSE of the ao was 0.018, 0.012 and 0.007 at
 /// 1, 4 and 16 rays on a scan and on a part.
 int guided_rays(Quality quality) {
     return quality == Quality::draft ? 1 : quality == Quality::good ? 4 : 16;
@@ -137,7 +137,8 @@ int guided_rays(Quality quality) {
 /// Default rays per sample of the other methods. With four samples, a pixel gets as many rays as a vertex of a bake.
 constexpr int rays_per_sample = 16;
 
-/// The method of a scene. `make_triangles` is called with whether shapes that are not meshes need triangles as well.
+/// The method of a scene. `make_triangles` takes one argument: whether shapes that are not meshes need triangles as
+/// well.
 template <class MakeTriangles>
 MethodChoice choose_occlusion(const SceneOcclusion& occlusion, const MakeTriangles& make_triangles) {
     if (occlusion.is_planned())

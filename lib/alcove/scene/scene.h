@@ -54,7 +54,7 @@ struct MeshShape {
     /// Whether its own colours (own_colors()) replace the colour of the material. If unset, they do not, and a warning
     /// says so.
     std::optional<bool> own_colors{};
-    std::optional<Length> weld{};    ///< joins vertices within it; a percentage is of the mesh's own diagonal
+    std::optional<Length> weld{};    ///< joins vertices closer than this; a percentage is of the mesh's own diagonal
     std::filesystem::path texture{}; ///< a .png or .exr that colours it by its UVs; empty: none. One per scene
 };
 /// A level set in a .vdb file.
@@ -86,7 +86,7 @@ struct SceneGround {
     std::optional<double> height{}; ///< along the camera's up direction; by default the lowest point
 };
 
-/// Unset members are those of studio_lighting().
+/// Members that are not set get their values from studio_lighting().
 struct SceneLight {
     std::optional<Vec3d> toward_sun{};          ///< of any length but 0
     std::optional<Vec3> sun{}, sky{}, bounce{}; ///< key, sky and ground of Lighting
@@ -95,7 +95,7 @@ struct SceneLight {
 };
 
 struct SceneOcclusion {
-    /// Chooses a method and its rays where none is named: guided, or traced for shapes without a zero isosurface.
+    /// Chooses a method and its rays if no method is named: guided, or traced for shapes without a zero isosurface.
     std::optional<Quality> quality = Quality::good;
     const Method* method = nullptr;             ///< null if no method is named, or an image method
     const ImageMethod* image_method = nullptr;  ///< set only if `method` is null
@@ -139,19 +139,19 @@ struct BuiltScene {
     Renderable renderable;
     std::vector<Vec3d> points; ///< surface points of the bounded objects, to aim a camera at; scene units
     float radius = 0.0f;       ///< radius of occlusion, unit space
-    MethodChoice occlusion{};  ///< without a method if none is named, or an image method
+    MethodChoice occlusion{};  ///< empty if no method is named, or an image method is
     double voxel = 0.0;        ///< largest of the objects' finest voxels, scene units; 0 without grids
     std::size_t levels = 0;    ///< largest number of levels of an object
     std::vector<std::string> warnings{};
 };
 
-/// Unit space is that of the box around all bounded objects; a radius in % refers to its diagonal. Level sets with a
-/// smaller reach than occlusion and soft shadows need for `passes` are extended by extend_levels(). The ground is
-/// perpendicular to `up` of the scene's camera.
+/// Builds a scene for rendering. Unit space is that of the box around all bounded objects; a radius in % refers to its
+/// diagonal. Level sets with a smaller reach than occlusion and soft shadows need for `passes` are extended by
+/// extend_levels(). The ground is perpendicular to `up` of the scene's camera.
 ///
-/// \throw InputError naming the object and its file: what read_mesh(), read_grids() and voxelize() throw; an open
-/// surface in a difference or blended union; a plane in a union or as the first part of a difference; an empty scene.
-/// LimitError as voxelize().
+/// \throw everything that read_mesh(), read_grids() and voxelize() throw. InputError also for an open surface in a
+/// difference or blended union, for a plane in a union or as the first part of a difference, and for an empty scene.
+/// These messages name the object and its file. LimitError as voxelize().
 BuiltScene build_scene(const Scene& scene, PassSet passes = standard_passes, const Progress& progress = {});
 
 /// The options to render a built scene with. Named methods that trace rays use 16 per sample by default.

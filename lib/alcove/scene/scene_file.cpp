@@ -208,7 +208,8 @@ class ObjectReader {
     std::filesystem::path folder_;
 };
 
-/// \throw InputError at the key if the method does not have the parameter or the value is out of range.
+/// Checks a parameter of a method. \throw InputError at the key if the method does not have the parameter or the value
+/// is out of range.
 void check_parameter(const TomlTable& table, std::string_view key, const MethodInfo& method,
                      const std::pair<std::string, double>& parameter) {
     try {

@@ -12,7 +12,7 @@
 
 namespace alcove {
 
-/// A mesh file; objects share it.
+/// The data of a mesh file. Objects with the same file share it.
 struct LoadedMesh {
     Mesh mesh;
     std::vector<Triangle> triangles;
@@ -28,12 +28,12 @@ struct LoadedShape {
     std::shared_ptr<const LoadedMesh> mesh{}; ///< for mesh shapes
     GridStack stack{};                        ///< for level sets, and for meshes once voxelized
     std::vector<LoadedShape> parts{};         ///< for composites
-    std::vector<std::string> warnings{};      ///< those of a file only at the first shape that uses it
+    std::vector<std::string> warnings{};      ///< the warnings of a file are only at the first shape that uses it
 };
 
-/// Loads the shapes of all objects. Keeps pointers to the objects. Adds the files to `memory`. \throw InputError naming
-/// the object or its file: what read_mesh() and read_grids() throw; a plane in a union or as the first part of a
-/// difference. LimitError if the files exceed the limit.
+/// Loads the shapes of all objects. Keeps pointers to the objects. Adds the files to `memory`. \throw everything that
+/// read_mesh() and read_grids() throw. InputError also for a plane in a union, or as the first part of a difference.
+/// These messages name the object or its file. LimitError if the files exceed the limit.
 std::vector<LoadedShape> load_shapes(const Scene& scene, MemoryEstimate& memory);
 
 /// Calls `visit(loaded)` for every shape and, recursively, its parts.

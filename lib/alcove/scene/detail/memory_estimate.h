@@ -15,7 +15,7 @@ class MemoryEstimate {
     void add(const std::string& file, double bytes);
     double limit() const { return limit_; }
     double left() const { return limit_ - total_; }
-    /// \throw LimitError naming the file that needs most, if nothing is left.
+    /// \throw LimitError if nothing is left. The message names the file that needs most.
     void check() const;
     /// \throw LimitError as check().
     [[noreturn]] void refuse() const;

@@ -41,7 +41,8 @@ std::vector<Surfel> points_on_faces(const LoadedShape& loaded, const Frame& own)
     return surfels;
 }
 
-/// The share of the surfels with no inside on either side. Checks both, because normals may be flipped.
+/// The share of the surfels where the field is outside both above and below the surface. Checks both sides, because
+/// normals may be flipped.
 double share_without_inside(const std::vector<Surfel>& surfels, const LoadedShape& loaded, const Frame& own,
                             const AnyField& field, const Frame& frame) {
     // Most edges are rounded by more than this depth, but walls of two voxels are intact there.

@@ -8,11 +8,11 @@
 
 namespace alcove {
 
-/// In linear light, from 0 to 1.
+/// Colours in linear light, from 0 to 1.
 struct OwnColors {
     std::vector<Vec3> of_vertices;     ///< empty, or one per vertex
     std::vector<Vec3> of_faces;        ///< empty, or one per face; never together with of_vertices
-    std::vector<std::string> warnings; ///< what is not shown
+    std::vector<std::string> warnings; ///< which colours are not shown
 
     bool any() const { return !of_vertices.empty() || !of_faces.empty(); }
 };

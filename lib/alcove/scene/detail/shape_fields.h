@@ -8,11 +8,13 @@
 
 namespace alcove {
 
-/// Sets the reach of a shape and its parts: `reach` in unit space; with `inside`, inside as well.
+/// Sets the distance up to which the fields of a shape and its parts must be correct: `reach`, in unit space. If
+/// `inside` is set, distances inside must be correct as well.
 void set_reach(LoadedShape& loaded, float reach, bool inside, const Frame& frame);
 
-/// The field of a shape in the unit space of `frame`. \throw InputError naming the object or its file: what
-/// SharedGrids::field() throws, and an open surface in a difference or blended union; LimitError as voxelize().
+/// The field of a shape in the unit space of `frame`. \throw everything that SharedGrids::field() throws. InputError
+/// also for an open surface in a difference or blended union. These messages name the object or its file. LimitError as
+/// voxelize().
 AnyField field_of(LoadedShape& loaded, const Frame& frame, SharedGrids& grids);
 
 /// The plane of a PlaneShape, in unit space.

@@ -41,8 +41,8 @@ decltype(auto) naming(const std::filesystem::path& file, const Work& work) {
 
 SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridContext& context, MemoryEstimate& memory)
     : context_(context), limit_(memory.limit()), limit_of_automatic_(memory.limit()) {
-    std::vector<const LoadedShape*> automatic; // with a voxel that may get coarser
-    double planned = 0.0;                      // bytes of those
+    std::vector<const LoadedShape*> automatic; // their voxels may get coarser
+    double planned = 0.0;                      // bytes of the automatic grids
     std::pair<double, std::string> largest{};  // bytes of the grid that takes most while it is built, and its file
     for_each_shape(shapes, [&](const LoadedShape& loaded) {
         if ((!mesh_of(loaded) && !grid_of(loaded)) || entries_[key_of(loaded)].users++ > 0)

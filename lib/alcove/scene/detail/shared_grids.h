@@ -26,7 +26,8 @@ class SharedGrids {
     SharedGrids(const std::vector<LoadedShape>& shapes, const GridContext& context, MemoryEstimate& memory);
 
     /// The field of a mesh or level set in the unit space of the scene. Voxelizes a mesh, and extends a level set to
-    /// the reach of the shape. Sets `loaded.stack`, without the OpenVDB grids, and adds warnings if no other shape did.
+    /// the reach of the shape. Sets `loaded.stack`, without the OpenVDB grids, and adds the warnings of the file,
+    /// unless another shape already has them.
     /// \throw InputError naming the file, as voxelize() and extend_levels(); LimitError as voxelize().
     AnyField field(LoadedShape& loaded);
 

@@ -5,7 +5,8 @@
 
 namespace alcove {
 
-/// \throw InputError if dotted keys and brackets are nested more than a thousand deep. Accepts other invalid TOML.
+/// Checks the depth of nesting. \throw InputError if dotted keys and brackets are nested more than a thousand deep.
+/// Accepts other invalid TOML.
 void check_toml_depth(const FileBytes& file);
 
 }

@@ -40,7 +40,7 @@ class TomlTable {
     bool has(std::string_view key) const { return table_.contains(key); }
     const std::string& name() const { return name_; }
 
-    /// \throw InputError for the first key that no reader read, naming the closest known key.
+    /// Checks that all keys were read. \throw InputError for the first key that was not, naming the closest known key.
     void check_all_read() const;
 
     /// Throws an InputError with the line of the key, or of the table if there is no such key. The message is the key,

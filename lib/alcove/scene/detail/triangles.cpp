@@ -16,7 +16,7 @@ namespace {
 
 constexpr float voxel = 1.0f / 256.0f;
 
-/// The colours of the triangle corners of a mesh: none, or those of its vertices or faces.
+/// The colours of the triangle corners of a mesh: from its vertices or its faces, or none.
 class CornerColors {
   public:
     CornerColors(const LoadedMesh& file, const MeshShape& shape, const SceneObject& object) {

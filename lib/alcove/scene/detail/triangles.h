@@ -6,10 +6,11 @@
 
 namespace alcove {
 
-/// The triangles of meshes with normals or colours of their own; with `all`, the triangles of every object: also other
-/// meshes, other shapes as the zero isosurface of their fields on voxels of 1/256 of their size, and grounds up to the
-/// length of the longest ray. `parts` belong to the shapes other than planes, in the same order. Null if there are no
-/// such triangles. \throw InputError naming the object: painted without vertex colours, or a sheet that is not a mesh.
+/// The triangles of meshes that have normals, colours or a texture of their own. With `all`, the triangles of every
+/// object and ground: other meshes too; other shapes as the zero isosurface of their fields, on voxels of 1/256 of
+/// their size; and grounds up to the length of the longest ray. `parts` are those of the shapes other than planes, in
+/// the same order. Null if there are no such triangles. \throw InputError if a painted mesh has no vertex colours, or
+/// if a sheet is not a mesh. The message names the object.
 std::shared_ptr<const RenderableMesh> triangles_of(const std::vector<LoadedShape>& shapes,
                                                    const std::vector<Part>& parts, const std::vector<Ground>& grounds,
                                                    const Frame& frame, bool all);
