@@ -19,7 +19,7 @@
 namespace alcove {
 namespace {
 
-/// The seed of the truth, so that a bake with exact rays does not share its noise.
+/// Seeds for the truth and for the labels: not the seed of a bake, so that a bake with exact rays has noise of its own.
 constexpr std::uint32_t truth_seed = 0x7ea7, fitted_seed = 0x7c31;
 constexpr std::size_t max_counted = 1024;
 
@@ -48,7 +48,8 @@ double map_calls_per_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, 
     return static_cast<double>(counting.calls()) / static_cast<double>(surfels.size());
 }
 
-/// An error for every vertex: that of the last vertex with a truth, at or before it on the Morton curve.
+/// An error for every vertex. It is the error of the last vertex with a truth, at or before this vertex on the Morton
+/// curve.
 std::vector<float> errors_of_all(const MeasuredMesh& mesh, const Truth& truth, std::span<const float> values) {
     std::vector<float> errors(mesh.surfels.size(), 0.0f);
     std::size_t next = 0;

@@ -39,7 +39,7 @@ struct TruthOptions {
     std::size_t most = 20'000; ///< maximum number of vertices, >= 1
     std::size_t labels = 0;    ///< vertices of Truth::labels, at most a quarter of all
 };
-/// As many as in a planned bake with an error of 0.02.
+/// The number of labels in a planned bake with an error of 0.02.
 inline constexpr std::size_t labels_of_pilot = 512;
 
 /// Reference ao at some vertices, by exact rays whose seed differs from that of a bake.
@@ -48,7 +48,7 @@ struct Truth {
     /// All vertices with a normal except those of `labels`, or a subset that is evenly spaced along the Morton curve.
     std::vector<std::uint32_t> vertices;
     std::vector<float> ao; ///< one value per entry of `vertices`
-    /// Other vertices, to which methods with a network are fitted. Null if none are requested, and for small meshes.
+    /// Other vertices, to which methods with a network are fitted. Null if none are requested, or if the mesh is small.
     std::shared_ptr<const Labels> labels;
 };
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options = {},
@@ -79,7 +79,7 @@ struct Measurement {
     double grid_seconds = 0.0;      ///< 0 if the method uses no grid
     double tree_seconds = 0.0;      ///< time to build the BVH; 0 if the method does not trace the mesh
     double occlusion_seconds = 0.0; ///< for all vertices
-    double map_calls = 0.0;         ///< per vertex, counted on at most 1,024 of them
+    double map_calls = 0.0;         ///< per vertex; counted on at most 1,024 vertices
     double rays = 0.0;              ///< per vertex, through the grid or against the mesh
     std::size_t grid_bytes = 0;
     std::size_t peak_rss_bytes = 0; ///< peak memory of the process during grid build and bake; 0 if unknown

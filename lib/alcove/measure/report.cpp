@@ -201,7 +201,7 @@ class Page {
         return svg(chart);
     }
 
-    /// Error against a length, with one line per method and sample count.
+    /// Chart of error against a length, with one line per method and sample count.
     std::string lines(const Group& group, const std::string& title, float (*length)(const Measurement&)) const {
         Chart chart{.x_title = title, .y_title = "RMSE"};
         for (const auto& [label, same] : grouped_by(group, [](const Measurement& m) { return m.label(); })) {

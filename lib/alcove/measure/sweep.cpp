@@ -128,7 +128,7 @@ class JobRunner {
     std::optional<MeasuredGrid> grid_;
 };
 
-/// Measures the jobs that are not in the file, except those of meshes that cannot be measured.
+/// Measures the jobs that are not in the file. Skips the jobs of meshes that cannot be measured.
 void measure_missing(const std::vector<Job>& jobs, const SweepOptions& options, ResultsFile& results, Sweep& to) {
     std::vector<Job> missing;
     std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),

@@ -27,9 +27,9 @@ struct SweepOptions {
 };
 
 struct Sweep {
-    std::vector<Measurement> measurements; ///< without duplicates; those of a mesh are adjacent
+    std::vector<Measurement> measurements; ///< without duplicates; measurements of the same mesh are adjacent
     std::vector<std::string> failures;     ///< one message per mesh that cannot be measured
-    bool bad_input = false;                ///< whether a mesh file caused one of them, rather than a lack of memory
+    bool bad_input = false;                ///< whether a mesh file, rather than a lack of memory, caused a failure
 };
 
 /// Measures every method at every radius and voxel on every mesh. Each grid and reference is built once.

@@ -22,7 +22,8 @@ class ResultsFile {
 
     /// Null if not measured yet.
     const Measurement* find(const MeasurementKey& key) const;
-    /// Adds a measurement and rewrites the file. Results of other inputs are kept. \throw IoError.
+    /// Adds a measurement and rewrites the file. Results of other inputs are kept. \throw IoError if the file cannot be
+    /// written.
     void add(const MeasurementKey& key, Measurement measurement);
 
   private:
