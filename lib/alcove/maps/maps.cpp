@@ -87,7 +87,7 @@ class MapBake {
                 faces.set_cage(*options.cage);
         }
         const double error = bake.error.value_or(bake.method.empty() ? rmse_of(bake.quality) : 0.0);
-        // With a small error, the noise of the rays is as large as the error allows, so neighbours differ by more.
+        // Below this error, the noise of the rays makes neighbours differ by more than the tolerance.
         constexpr double least_error = 0.01;
         if (error >= least_error && options.subsamples == 1 && !high_ && bake.attributes == Channel::ao)
             sparse_error_ = static_cast<float>(error);
@@ -265,8 +265,8 @@ class MapBake {
         samples_.clear();
     }
 
-    /// Interpolates the texels between samples, whose ao is given. Texels whose neighbours differ are appended to the
-    /// samples. \return the points of the new samples
+    /// Interpolates the texels between samples; `ao` is that of the samples. Texels whose neighbours differ are
+    /// appended to the samples. \return the points of the new samples
     std::vector<SurfacePoint> interpolate(std::span<const float> ao, std::size_t& between) {
         const float tolerance = 2.0f * sparse_error_; // as noise makes neighbours differ, too
         for (std::size_t i = 0; i < ao.size(); ++i)
@@ -305,7 +305,7 @@ class MapBake {
                 [&](std::size_t i) { return projected[i].point.face; }};
     }
 
-    /// Projects the samples onto the high meshes. Drops those that miss them.
+    /// Projects the samples onto the high meshes. Drops samples that miss these meshes.
     std::vector<ProjectedTo> project_samples() {
         std::vector<ProjectedFrom> from(samples_.size());
         parallel_for(samples_.size(), 4096, [&](std::size_t begin, std::size_t end) {

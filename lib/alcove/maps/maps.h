@@ -18,8 +18,8 @@ namespace alcove {
 
 /// The axes of directions in a map.
 enum class MapSpace {
-    tangent, ///< those of the texel: along u, along v, along the normal, as MikkTSpace defines them
-    object,  ///< those of the mesh
+    tangent, ///< the axes of the texel: along u, along v, along the normal, as MikkTSpace defines them
+    object,  ///< the axes of the mesh
 };
 
 /// What a map shows: the channels of a bake, in their order, or the surface of the high meshes.
@@ -48,7 +48,7 @@ constexpr MapAttribute attribute_of(Channel channel) {
 }
 MapAttributeInfo info(MapAttribute attribute);
 
-/// \throw InputError for an unknown name, with all names.
+/// The attribute called `name`. \throw InputError for an unknown name; the message lists all names.
 MapAttribute map_attribute(std::string_view name);
 
 EnumSet<MapAttribute> attributes_of(ChannelSet baked);
@@ -66,8 +66,9 @@ struct MapOptions {
     MapSpace space = MapSpace::tangent;
     bool flip_green = false; ///< negate the second coordinate of directions, as DirectX expects
 
-    /// Meshes whose surface is baked instead: each texel is projected onto it along the mean normal of the mesh. The
-    /// mesh itself then occludes nothing, and lengths relative to a diagonal refer to these meshes.
+    /// Meshes whose surface is baked instead of that of the mesh. Each texel is projected onto this surface, along the
+    /// averaged normals of the mesh. The mesh itself then occludes nothing, and lengths relative to a diagonal refer to
+    /// the high meshes.
     std::vector<Mesh> high{};
     /// How far to look for the high meshes, in front of and behind the mesh; a percentage refers to their diagonal.
     /// Empty: derived from the distance between the meshes.
@@ -87,7 +88,7 @@ enum class Coverage : std::uint8_t {
     background, ///< MapAttributeInfo::missing
     face,       ///< baked
     margin,     ///< the value of the nearest baked texel
-    miss,       ///< the same, because no high mesh is within reach
+    miss,       ///< the value of the nearest baked texel, because no high mesh is within reach
 };
 
 struct MapTile {
@@ -98,7 +99,7 @@ struct MapTile {
 
 struct BakedMaps {
     int width = 0, height = 0;
-    std::vector<MapTile> tiles; ///< by number
+    std::vector<MapTile> tiles; ///< in the order of their numbers
     std::size_t texels = 0;     ///< baked
     std::size_t overlaps = 0;   ///< baked texels that several faces cover; the first face was used
     std::size_t misses = 0;     ///< texels without a high mesh within reach
@@ -109,15 +110,17 @@ struct BakedMaps {
 };
 
 /// Bakes the texels of all faces with UVs. A texel is covered by the first face that contains its centre, else by the
-/// first that touches it. Normals are those of corners or vertices in the file, interpolated; without them, means over
-/// faces within 40 degrees, so that edges are hard. NormalSource::angle and area smooth everything.
+/// first that touches it. The normals of corners or vertices in the file are interpolated. If the file has none,
+/// normals are means over faces within 40 degrees, so that edges are hard. NormalSource::angle and area smooth
+/// everything.
 ///
 /// With high meshes, each texel is projected inward, from MapOptions::reach in front of the mesh, onto the first of
 /// their faces that faces outward. Texels that hit none get the values of their neighbours.
 ///
-/// Cost: per texel as bake() of points; texels are many, so most are interpolated. In tiles of at least a million
-/// texels and 16 per triangle, baked for ao alone with an error of at least 0.01 and without high meshes or subsamples,
-/// texels get the mean of their neighbours where these differ by less than the error. Thread-safety as bake().
+/// Cost: per texel as bake() of points. Maps have many texels, so most of them are interpolated. In tiles that have at
+/// least a million texels and at least 1.1/error texels per triangle, texels get the mean of their neighbours where
+/// these differ by at most twice the error. This applies to ao alone with an error of at least 0.01, and without high
+/// meshes or subsamples. Thread-safety as bake().
 /// \throw like bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});
@@ -126,7 +129,7 @@ BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOpt
 enum class TexturePacking {
     none,          ///< nothing
     size_of_image, ///< the metallic-roughness texture of the material, at the size of its image; ao is the red channel
-    size_of_map,   ///< the same, at the size in MapOptions
+    size_of_map,   ///< the metallic-roughness texture, at the size in MapOptions
 };
 
 /// Textures of ao for the materials of a glTF scene, or one for a mesh from another format.
@@ -134,7 +137,7 @@ struct OcclusionTextures {
     struct Texture {
         std::optional<std::size_t> material; ///< material of the glTF file; empty: for faces without one
         std::vector<std::pair<std::size_t, std::size_t>>
-            primitives; ///< those that show it: meshes of the file, and primitives in them
+            primitives; ///< the primitives that show the texture: meshes of the file, and primitives in them
         int uv_set = 0;
         int width = 0, height = 0; ///< texels
         bool is_packed = false;    ///< into the red channel of the metallic-roughness texture
@@ -143,11 +146,11 @@ struct OcclusionTextures {
     BakedMaps maps;
 };
 
-/// Bakes a texture per material, on its first set of UVs without overlaps. If a glTF mesh has several instances, all
-/// show the ao of the first one; Baked::warnings says so. The attributes and MapOptions::uv_set, udim, high and surface
-/// have no effect.
+/// Bakes a texture per material, on the first of its sets of UVs that has no overlaps. If a glTF mesh has several
+/// instances, all show the ao of the first one; Baked::warnings says so. The attributes and MapOptions::uv_set, udim,
+/// high and surface have no effect.
 ///
-/// With packing, the UVs are those of the metallic-roughness texture if they are without overlaps. Otherwise, and where
+/// With packing, the UVs are those of the metallic-roughness texture if these do not overlap. Otherwise, and where
 /// there is no such texture, the material gets a texture of its own; Baked::warnings says so.
 /// TexturePacking::size_of_image bakes at the size of the largest of these images.
 /// \throw like bake_maps(), InputError naming the meshes that have no set of UVs without overlaps, or an image that is

@@ -23,7 +23,7 @@
 namespace alcove {
 namespace {
 
-/// The faces of each material. If a mesh has several instances, those of the first one.
+/// The faces of each material. If a mesh has several instances, only the faces of the first one.
 class MaterialFaces {
   public:
     MaterialFaces(const Mesh& mesh, const GltfDocument* document, const FaceSelection& selection) {
@@ -53,7 +53,7 @@ class MaterialFaces {
     }
 
     const std::map<std::optional<std::size_t>, std::vector<std::uint8_t>>& faces() const { return faces_; }
-    /// The primitives with that material: meshes of the file, and primitives in them.
+    /// The primitives with the given material: meshes of the file, and primitives in them.
     std::vector<std::pair<std::size_t, std::size_t>> primitives(const std::optional<std::size_t>& material) const {
         const auto found = primitives_.find(material);
         if (found == primitives_.end())
@@ -86,7 +86,7 @@ bool is_unwrapped(const Mesh& mesh, const UvLayout& layout, const MapOptions& op
     return covered > 0 && static_cast<double>(owners.overlaps) <= most * static_cast<double>(covered);
 }
 
-/// The names of the meshes of those faces, for a message.
+/// The names of the meshes of the wanted faces, for a message.
 std::string names_of_meshes(const Mesh& mesh, const GltfDocument* document, const std::vector<std::uint8_t>& wanted) {
     std::set<std::string> names;
     if (document != nullptr)
@@ -106,7 +106,7 @@ std::string names_of_meshes(const Mesh& mesh, const GltfDocument* document, cons
                        more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The set of UVs for the texture of some faces: `preferred`, or else the first without overlaps.
+/// The set of UVs for the texture of some faces: `preferred`, or else the first set without overlaps.
 UvLayout choose_uvs(const Mesh& mesh, const GltfDocument* document, const std::vector<std::uint8_t>& faces,
                     const MapOptions& options, std::optional<std::size_t> preferred) {
     const int sets = document ? static_cast<int>(document->uv_sets()) : 1;

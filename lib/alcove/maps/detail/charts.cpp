@@ -11,10 +11,10 @@
 namespace alcove {
 namespace {
 
-/// The side of a triangle that starts at a corner, from the smaller vertex to the larger.
+/// The side of a triangle that starts at a corner. Its ends are ordered by vertex index.
 struct Edge {
     std::uint32_t triangle;
-    std::size_t at_low, at_high; ///< the triangle's corners there
+    std::size_t at_low, at_high; ///< the corners of the triangle at the smaller and the larger index
 
     Edge(std::span<const Triangle> vertices, std::uint32_t corner) : triangle(corner / 3) {
         const std::size_t here = corner % 3, next = (here + 1) % 3;
@@ -23,7 +23,7 @@ struct Edge {
     }
 };
 
-/// All corners, sorted by the vertices of their sides.
+/// All corners, sorted by the vertices at the ends of the sides that start there.
 HugeVector<Keyed<std::uint64_t>> sides_by_vertices(std::span<const Triangle> vertices) {
     std::uint32_t last = 0;
     for (const Triangle& t : vertices)

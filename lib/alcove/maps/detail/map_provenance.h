@@ -9,11 +9,11 @@
 
 namespace alcove {
 
-/// "alcove 0.2.0".
+/// The name and version of the program: "alcove 0.2.0".
 std::string map_software();
-/// "ambient occlusion by traced, radius 0.5"; empty if no method made the maps.
+/// How the maps were made: "ambient occlusion by traced, radius 0.5". Empty if no method made the maps.
 std::string how_made(const BakedMaps& maps);
-/// Both, for a PNG.
+/// map_software() and how_made(), as texts for a PNG.
 std::vector<PngText> png_texts(const BakedMaps& maps);
 
 }

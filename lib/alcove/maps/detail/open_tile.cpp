@@ -36,7 +36,7 @@ void finish(MapLayer& layer, const MapTile& map, const std::vector<std::uint16_t
                                                                                                   : attribute.missing;
 }
 
-/// Whether `test` is true for all texels around one.
+/// Whether `test` is true for all texels from which `texel` is interpolated.
 template <class Test>
 bool all_around(const TexelsAround& around, std::size_t texel, std::size_t width, const Test& test) {
     const std::size_t rows = around.down * width, across = around.across;
@@ -44,7 +44,8 @@ bool all_around(const TexelsAround& around, std::size_t texel, std::size_t width
            (rows == 0 || across == 0 || (test(texel - rows + across) && test(texel + rows - across)));
 }
 
-/// Interpolates the texels of a row that are at that distance from their neighbours.
+/// Interpolates the texels of a row from neighbours at `distance`, and adds their number to `count`. Texels whose
+/// neighbours differ by more than `tolerance` are appended to `others` instead.
 void interpolate_row(OpenTile& tile, std::size_t row, std::size_t distance, float tolerance, std::size_t& count,
                      std::vector<std::uint32_t>& others) {
     std::vector<float>& values = tile.map.layers.front().values;
@@ -131,7 +132,7 @@ TexelCounts finish(OpenTile& tile, const MapOptions& options, bool has_tangents)
     const int larger = std::max(options.width, options.height),
               margin = std::min(options.margin.value_or(std::max(larger / 128, 1)), larger);
     std::vector<std::uint32_t> nearest = nearest_covered(covered, options.width, options.height, margin);
-    if (counts.missed > 0) { // their neighbours may be further than the margin
+    if (counts.missed > 0) { // the neighbours of a missed texel may be further away than the margin
         const auto any = nearest_covered(covered, options.width, options.height, larger);
         for (std::size_t i = 0; i < texels; ++i)
             nearest[i] = tile.wanted[i] ? any[i] : nearest[i];

@@ -19,18 +19,19 @@ struct OpenTile {
     UvTile uvs{};
     TexelOwners owners;
     MapTile map;
-    std::vector<std::uint16_t> counts{}; ///< samples per texel
-    std::vector<std::uint8_t> wanted{};  ///< 1 for texels of a face
-    int stride = 1;                      ///< of the samples; texels between them are interpolated, see texels_around()
-    int sampled_rows = 0;                ///< rows from the top whose samples have been taken
+    std::vector<std::uint16_t> counts{};    ///< samples per texel
+    std::vector<std::uint8_t> wanted{};     ///< 1 for texels of a face
+    int stride = 1;                         ///< texels from one sample to the next, see texels_around()
+    int sampled_rows = 0;                   ///< rows from the top whose samples have been taken
     std::array<int, 2> interpolated_rows{}; ///< at the distances 1 and 2
 };
 
-/// The stride for a map of this RMSE: larger where texels are dense, on the surface and among all.
+/// The distance between samples, in texels, for a map with this RMSE. It grows with the number of texels, and with
+/// their number per triangle.
 int stride_of_samples(std::size_t covered_texels, std::size_t triangles, float error);
 
-/// The distances to the texels from which one is interpolated, along the row and the column: two texels if one of them
-/// is 0, otherwise four. Both are 0 if the texel is not interpolated.
+/// The distances, along the row and along the column, to the texels from which a texel is interpolated. If one of them
+/// is 0, there are two such texels, otherwise four. If both are 0, the texel is not interpolated.
 struct TexelsAround {
     std::size_t across = 0, down = 0;
 
@@ -41,9 +42,9 @@ struct TexelsAround {
 /// at this distance, if they are in its chart.
 TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y);
 
-/// Interpolates texels in the rows whose neighbours have values, from large distances to small, and adds their number to
-/// `count`. \return the texels at one distance whose neighbours differ by more than `tolerance`. They need values before
-/// the next call, which continues; none if all texels have values
+/// Interpolates the texels in the rows whose neighbours have values, from large distances to small, and adds their
+/// number to `count`. \return texels whose neighbours differ by more than `tolerance`, all at one distance. They must
+/// get values before the next call, which continues from there. Empty if all texels have values
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count);
 
 struct TexelCounts {

@@ -13,7 +13,7 @@ namespace alcove {
 /// The size of an image, without decoding it. \throw like decode_image()
 MapSize size_of(const GltfImage& image);
 
-/// \throw LimitError if packing into an image at size `to` takes more memory than the limit.
+/// Checks the memory for packing into an image at size `to`. \throw LimitError if it exceeds the limit.
 void check_packing(const GltfImage& image, MapSize to);
 
 /// A PNG of size `to` whose red channel is the ao of a map, and whose other channels are those of the image.

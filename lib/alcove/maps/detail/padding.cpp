@@ -39,7 +39,8 @@ class Envelope {
   public:
     explicit Envelope(std::size_t width) : sites_(width), starts_(width) {}
 
-    /// Calls `visit(x, site)` for each x, where `site` is the lowest parabola at x; for none if all heights are `far`.
+    /// Calls `visit(x, site)` for each x, where `site` is the lowest parabola at x. If all heights are `far`, `visit`
+    /// is not called.
     template <class Visit>
     void each(std::span<const std::int64_t> heights, const Visit& visit) {
         std::size_t count = 0;
@@ -97,7 +98,7 @@ std::vector<std::uint32_t> nearest_covered(std::span<const std::uint8_t> covered
             for (std::size_t x = 0; x < columns; ++x) {
                 if (is_covered[x])
                     continue;
-                // A run of uncovered texels and the covered ones beside it, beyond which no covered texel is nearer.
+                // A run of uncovered texels and the covered texels at its ends, beyond which none is nearer.
                 const std::size_t first = x - (x > 0);
                 heights.assign(x - first, 0);
                 bool is_near = x > first;

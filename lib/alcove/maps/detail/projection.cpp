@@ -97,7 +97,7 @@ void Projection::project_block(std::span<const ProjectedFrom> points, double beh
 }
 
 double Projection::reach_for(std::span<const ProjectedFrom> points) const {
-    constexpr double furthest = 0.1, least = 1e-4; // of the diagonal
+    constexpr double furthest = 0.1, least = 1e-4; // relative to the diagonal
     constexpr double most = 0.95, spare = 5.0;     // rays that pass a tip hit other parts, far away
     std::vector<ProjectedFrom> inverse(points.begin(), points.end());
     for (ProjectedFrom& point : inverse)

@@ -152,7 +152,7 @@ class Rasterizer {
         });
     }
 
-    /// Calls `visit` for the texels of a span for which it has not returned true yet.
+    /// Calls `visit` for each texel of a span, except the texels for which `visit` has returned true before.
     template <class Visit>
     void each(std::int64_t row, const Span& span, const Visit& visit) {
         constexpr std::size_t longest = std::numeric_limits<std::uint16_t>::max();

@@ -23,7 +23,8 @@ Vec3d projected(const Vec3d& v, const Vec3d& normal) {
     return unit(v - glm::dot(normal, v) * normal);
 }
 
-/// The direction of u on a triangle, and whether its UVs keep the orientation. Zero if the UVs have no area.
+/// The direction of u on a triangle, and whether its UVs keep the orientation. The direction is zero if the UVs have no
+/// area.
 struct Gradient {
     Vec3d along_u{0.0};
     bool keeps_orientation = false, is_degenerate = true;
@@ -54,7 +55,8 @@ std::vector<std::uint32_t> vertices_of(std::span<const Corners> triangles) {
     return vertices;
 }
 
-/// For each edge, which runs from its corner to the next, the corner from which the edge of the neighbour runs back.
+/// Finds the neighbour across each edge. An edge runs from its corner to the next one. Its entry is the corner from
+/// which the same edge of the neighbour runs back.
 std::vector<std::uint32_t> neighbours_of(const std::vector<std::uint32_t>& vertices) {
     const auto end_of = [&](std::uint32_t edge) { return vertices[edge % 3 == 2 ? edge - 2 : edge + 1]; };
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> open; // edges by their ends
@@ -103,8 +105,8 @@ class TangentGroups {
         for (std::size_t i = 0; i < group.size(); ++i) {
             const std::uint32_t corner = group[i], triangle = corner / 3 * 3,
                                 previous = triangle + (corner % 3 + 2) % 3;
-            // Across the edge that begins here, the neighbour's edge ends at the vertex; across the one that ends here,
-            // it begins there.
+            // The neighbour across the edge that begins here has an edge that ends at the vertex. The neighbour across
+            // the edge that ends here has an edge that begins at the vertex.
             if (const std::uint32_t back = neighbours_[corner]; back != none)
                 visit(back / 3 * 3 + (back % 3 + 1) % 3, orientation, group);
             if (const std::uint32_t back = neighbours_[previous]; back != none)
@@ -119,7 +121,7 @@ class TangentGroups {
 
     void visit(std::uint32_t corner, bool orientation, std::vector<std::uint32_t>& group) {
         Gradient& gradient = gradients_[corner / 3];
-        if (gradient.is_degenerate && !has_orientation(corner / 3)) // takes that of the group that reaches it first
+        if (gradient.is_degenerate && !has_orientation(corner / 3)) // takes the orientation of the first group
             gradient.keeps_orientation = orientation;
         if (has_group_[corner] || gradient.keeps_orientation != orientation)
             return;

@@ -15,7 +15,7 @@
 
 namespace alcove {
 
-/// The UDIM tile whose lower left corner is u, v has the number 1001 + u + 10 v.
+/// The UDIM tile whose lower left corner is (u, v) has the number 1001 + u + 10 v.
 inline constexpr int first_udim = 1001, udims_per_row = 10;
 
 struct UvFacesOptions {
@@ -24,7 +24,7 @@ struct UvFacesOptions {
     std::span<const std::uint8_t> wanted{}; ///< empty, or 1 for each face to take
 };
 
-/// The triangles with usable UVs. Const use is thread-safe.
+/// The triangles of a mesh that have usable UVs. `const` use is thread-safe.
 class UvFaces {
   public:
     /// \throw InputError if the mesh does not have the set of UVs.
@@ -35,26 +35,27 @@ class UvFaces {
     std::size_t without_texels() const { return without_texels_; }
     /// The face of a triangle.
     std::uint32_t face(std::uint32_t triangle) const { return faces_[triangle]; }
-    /// The point of a triangle with these weights. Its normal is not of unit length.
+    /// The point of a triangle with the barycentric coordinates `weights`. Its normal is not of unit length.
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what chart() needs.
     void add_charts();
     std::uint32_t chart(std::uint32_t triangle) const { return charts_[triangle]; }
     /// Computes what projected_from() needs.
     void add_directions();
-    /// The point, to be projected along the mean of the normals around its vertices, which leaves no gaps at hard
-    /// edges, from `front` in front of it; or from the cage, if there is one.
+    /// The point of a triangle, ready to be projected. The direction is the mean of the normals around its vertices,
+    /// which leaves no gaps at hard edges; the ray starts `front` in front of the point. If there is a cage, the ray
+    /// starts at the cage and is directed at the point.
     ProjectedFrom projected_from(std::uint32_t triangle, const Vec3d& weights, double front) const;
     /// Sets the cage: a mesh with the vertices of this one, moved outward. \throw InputError if it has a different
     /// number of vertices.
     void set_cage(const Mesh& cage);
     /// Computes what to_tangent() needs.
     void add_tangents();
-    /// A direction in the frame that shaders interpolate between the corners. Zero if that frame is degenerate.
+    /// Converts a direction to the frame that shaders interpolate between the corners. Zero if the frame is degenerate.
     Vec3 to_tangent(std::uint32_t triangle, const Vec3d& weights, const Vec3& direction) const;
     /// The numbers of the UDIM tiles that triangles reach, in ascending order; only 1001 without `udim`.
     std::vector<int> tiles(bool udim) const;
-    /// Warnings about triangles that were left out and those outside the tiles.
+    /// Warnings about triangles that were left out, and about triangles outside the tiles.
     std::vector<std::string> warnings(bool udim) const;
 
   private:

@@ -18,8 +18,8 @@ struct UvLayout {
     std::vector<std::uint8_t> wanted; ///< empty, or 1 for each face that belongs to it
 };
 
-/// As bake_maps(), with the tiles of all layouts in order; without UDIM, each layout has one tile. The uv_set of the
-/// options has no effect.
+/// Like bake_maps(), but with the tiles of all layouts, in order. Without UDIM, each layout has one tile. The uv_set of
+/// the options has no effect.
 BakedMaps bake_layouts(const Mesh& mesh, const BakeOptions& bake, const MapOptions& options,
                        std::span<const UvLayout> layouts);
 
