@@ -21,7 +21,7 @@ void run(BakeVerb& verb) {
     verb.bake.threads = verb.common.threads;
     verb.bake.method = verb.method.method;
     verb.bake.quality = verb.quality.value_or(verb.bake.quality);
-    if (verb.quality && !verb.method.method.empty()) // tunes the method, as --error does
+    if (verb.quality && !verb.method.method.empty()) // the quality tunes the method, as --error does
         verb.bake.error = rmse_of(*verb.quality);
     verb.bake.parameters = verb.method.parameters;
     verb.bake.seed = verb.method.seed.value_or(0);
@@ -60,7 +60,7 @@ void add_files(CLI::App& app, BakeVerb& verb) {
         ->required();
 }
 
-/// The radius, the accuracy and the method.
+/// Adds the options for the radius, the accuracy and the method.
 void add_planning(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
     add_radius_option(app, bake.radius,
@@ -90,7 +90,7 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
         "the mesh");
 }
 
-/// The attributes, and the vertices to bake.
+/// Adds the options for the attributes, and for the vertices to bake.
 void add_surface(CLI::App& app, BakeVerb& verb) {
     BakeOptions& bake = verb.bake;
     app.add_option_function<std::string>(

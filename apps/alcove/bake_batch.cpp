@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether meshes of this name can be written.
+/// Whether a mesh can be written to a file of this name.
 bool is_mesh_output(const std::string& file) {
     const std::string end = extension(file);
     return end == ".ply" || end == ".obj" || end == ".glb" || end == ".gltf";

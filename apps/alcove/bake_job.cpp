@@ -41,7 +41,7 @@ std::string method_text(const Baked& baked) {
                        baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason));
 }
 
-/// One input, from reading to writing.
+/// Handles one input, from reading to writing.
 class BakeJob {
   public:
     BakeJob(const BakeVerb& verb, const BatchFile& file) : verb_(verb), file_(file) {}

@@ -86,7 +86,7 @@ void check_options(const BakeVerb& verb) {
     const GridStack any;
     if (meshed || !verb.grid.empty())
         options.grid = &any;
-    if (!verb.map.map.surface.empty()) // needs no other attribute
+    if (!verb.map.map.surface.empty()) // then no other attribute is needed
         options.attributes = options.attributes | Channel::ao;
     as_usage([&] { check(options); });
 }

@@ -50,7 +50,7 @@ std::string explain_verb(const CLI::App& program, const std::vector<std::string>
 
 /// Rephrases a message of CLI11 such as "Could not convert: --threads = -1".
 std::string explain_conversion(const CLI::App& verb, const std::string& said) {
-    // By option or by type.
+    // The values that options take, by the name of the option or by the name of its type.
     static const std::map<std::string, std::string> kinds{{"--seed", "a whole number from 0 to 4294967295"},
                                                           {"UINT", "a whole number, 0 or more"},
                                                           {"N", "a whole number in its range"},

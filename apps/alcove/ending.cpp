@@ -47,8 +47,7 @@ extern "C" void on_interrupt(int signal) {
     (void)::raise(signal);
 }
 
-/// Prints a message, unless the last line is printed already, and exits without running destructors or allocating
-/// memory.
+/// Prints a message unless the last line is printed already, and exits. Neither runs destructors nor allocates memory.
 [[noreturn]] void exit_with(const char* message, bool is_last_line) {
     remove_unfinished_files();
     if (is_last_line)

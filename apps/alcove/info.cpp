@@ -102,7 +102,7 @@ Facts facts_of_grid(const std::string& file) {
         add_level(level, level.voxel * scale, partial, ", near thin walls and narrow gaps only");
     for (std::size_t i = 0; i < stack.levels.size(); ++i)
         add_level(stack.levels[i], stack.scene_voxel(i), levels, "");
-    facts.add("diagonal", scale); // the unit of percentages; in files of Alcove, that of the mesh
+    facts.add("diagonal", scale); // percentages refer to this; in files of Alcove, it is that of the mesh
     facts.add("partial_levels", partial);
     facts.add("levels", levels, lines);
     facts.add("warnings", stack.warnings, stack.warnings);

@@ -118,7 +118,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
     facts.add("findings", findings, findings);
 }
 
-/// As a bake decides it.
+/// Adds the sign that a bake would choose.
 void add_sign(Facts& facts, const Mesh& mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     if (mesh.face_count() == 0)

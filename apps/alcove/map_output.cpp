@@ -13,14 +13,14 @@
 namespace alcove::cli {
 namespace {
 
-/// A whole number that takes up all of the text.
+/// The whole number that the text consists of; empty for any other text.
 std::optional<int> whole_number(std::string_view text) {
     int number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// N or WxH.
+/// Parses a size: N or WxH.
 std::pair<int, int> parse_size(const std::string& text) {
     const std::size_t times = text.find('x');
     const std::optional<int> width = whole_number(std::string_view(text).substr(0, times)),
@@ -32,7 +32,7 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {*width, *height};
 }
 
-/// Names of attributes and numbers, separated by commas.
+/// Parses names of attributes and numbers, separated by commas.
 std::vector<PackedChannel> parse_pack(const std::string& text) {
     std::vector<PackedChannel> pack;
     std::istringstream words(text);

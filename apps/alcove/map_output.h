@@ -12,13 +12,13 @@ struct MapRequest {
     MapFileOptions files;
     std::vector<std::string> high{};
     std::string cage{}, miss_mask{};
-    bool into_texture = false; ///< occlusion textures in a glTF file, not a map
-    bool pack_orm = false;     ///< into the metallic-roughness textures of that file
+    bool into_texture = false; ///< bake occlusion textures into a glTF file, not a map
+    bool pack_orm = false;     ///< pack ao into the metallic-roughness textures of that file
     bool has_size = false;     ///< whether --size was used
     bool sized = false;        ///< whether --size, --subsamples or --margin was used
 
     bool given() const;             ///< whether any option for maps was used
-    bool given_beyond_size() const; ///< other than --size, --subsamples and --margin
+    bool given_beyond_size() const; ///< whether an option other than --size, --subsamples or --margin was used
     TexturePacking packing() const;
 };
 
@@ -29,17 +29,17 @@ bool is_map(const std::string& output);
 /// --cage, --miss-mask and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
-/// \throw InputError if the mask of misses is not a .png, would replace a map or lacks the tiles of the output, or if
-/// there is no high mesh; as AtomicFile if it cannot be written.
+/// Checks the file of the mask of misses. \throw InputError if it is not a .png, would replace a map or lacks the tiles
+/// of the output, or if there is no high mesh; as AtomicFile if it cannot be written.
 void check_miss_mask(const MapRequest& request, const std::string& output);
 
-/// "ao, normal".
+/// The names of the attributes: "ao, normal".
 std::string attributes_of(const BakedMaps& maps);
 
-/// "ao of 306,123 texels of 2048 x 2048".
+/// What was baked: "ao of 306,123 texels of 2048 x 2048".
 std::string summary_of(const BakedMaps& maps);
 
-/// The attributes of "ao,normal". \throw InputError for an unknown name, or if there is none.
+/// Parses names of attributes such as "ao,normal". \throw InputError for an unknown name, or if there is none.
 EnumSet<MapAttribute> parse_attributes(const std::string& text);
 
 }

@@ -50,7 +50,7 @@ std::vector<WrittenLength> parse_radii(const std::string& text) {
     return radii;
 }
 
-/// `auto` has the value 0.
+/// Parses voxels, separated by commas. `auto` has the value 0.
 std::vector<WrittenLength> parse_voxels(const std::string& text) {
     constexpr const char* voxel_forms = "0.2 (scene units), 0.5% (of the diagonal) or auto";
     std::vector<WrittenLength> voxels;

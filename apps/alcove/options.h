@@ -120,7 +120,8 @@ std::string method_names();
 /// The extension of a file name in lower case, with the dot.
 std::string extension(const std::string& file);
 
-/// \throw UsageError unless the name ends in .vdb; as AtomicFile if the file cannot be written.
+/// Checks the name of a grid to write. \throw UsageError unless the name ends in .vdb; as AtomicFile if the file cannot
+/// be written.
 void check_grid_output(const std::string& file);
 
 /// Prints a line to stdout. Like messages on stderr, it does not show control characters of names.
@@ -135,7 +136,7 @@ void print_json(const nlohmann::ordered_json& object, bool in_one_line = false);
 /// "solid" or "sheet".
 std::string_view name_of(Sign sign);
 
-// Each adds a verb to the program; its callback runs the verb.
+// Each of these functions adds a verb to the program. The callback of the verb runs it.
 void add_bake(CLI::App& program);
 void add_render(CLI::App& program);
 void add_voxelize(CLI::App& program);

@@ -15,10 +15,11 @@ namespace alcove::cli {
 /// Adds --weld (empty: not given).
 void add_weld_option(CLI::App& verb, std::optional<Length>& weld);
 
-/// \throw UsageError if the mesh has no faces: the option is not for points.
+/// Checks that the mesh has faces. \throw UsageError if it has none: the option is not for points.
 void check_has_faces(const Mesh& mesh, const std::string& file, const std::string& option);
 
-/// read_mesh(), with its vertices joined if `weld` is set. Not to be written: `source` is still that of the file.
+/// Reads a mesh as read_mesh() does, and joins its vertices if `weld` is set. Do not write this mesh: its `source` is
+/// still that of the file.
 Mesh read_welded(const std::string& file, const std::optional<Length>& weld);
 
 }
