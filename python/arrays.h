@@ -13,12 +13,13 @@ namespace alcove::python {
 
 namespace py = pybind11;
 
-/// Rows of `columns` numbers each, as C-contiguous doubles or floats; copied only if the array is not already that.
-/// \throw py::type_error for other kinds of values, py::value_error for another shape; both name `argument`.
+/// Rows of `columns` numbers each, as C-contiguous doubles or floats; copied only if the array has another layout or
+/// type.
+/// \throw py::type_error for other kinds of values, py::value_error for another shape; both messages name `argument`.
 template <class T>
 py::array_t<T, py::array::c_style> rows(const py::object& array, py::ssize_t columns, const std::string& argument);
 
-/// Whole numbers of one dimension, or of rows of `columns`, in [0, limit). \throw as rows()
+/// Whole numbers in [0, limit). \throw as rows()
 std::vector<std::uint32_t> indices(const py::object& array, std::size_t limit, const std::string& argument);
 
 /// An array that owns the vector, without a copy. With one column, it has one dimension.

@@ -44,7 +44,7 @@ struct SceneField {
     Frame frame;
 };
 
-/// \throw InputError for a size that is not positive.
+/// The size as a float. \throw InputError if it is not positive and finite.
 float size_of(double size, const char* argument) {
     if (!(size > 0.0) || !std::isfinite(size))
         throw InputError(fmt::format("{}: takes a positive number, not {}", argument, size));

@@ -45,7 +45,7 @@ bool is_number(const std::string& word) {
     return word.find_first_not_of("0123456789.e+-") == std::string::npos;
 }
 
-/// \param value empty if there is none
+/// The argument of the module that corresponds to an option. \param value empty if there is none
 std::string argument_for(const std::string& option, const std::string& value) {
     std::string name = option;
     std::replace(name.begin(), name.end(), '-', '_');

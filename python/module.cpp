@@ -331,7 +331,8 @@ void add_result(py::module_& module) {
 }
 
 void add_exceptions(py::module_& module) {
-    // Each is also the built-in exception that callers would expect. The module and this function keep them forever.
+    // Each exception derives from the built-in exception that callers would expect. The module and this function keep
+    // these exceptions forever.
     const auto derived = [&](const char* name, PyObject* base, const char* doc) {
         PyObject* const made = PyErr_NewExceptionWithDoc(fmt::format("alcove.{}", name).c_str(), doc, base, nullptr);
         module.attr(name) = py::reinterpret_borrow<py::object>(made);

@@ -53,8 +53,8 @@ class Worker {
     std::packaged_task<void()> task_;
 };
 
-/// A worker of its own for each call. Workers are reused, because Embree keeps memory for every thread that ever used
-/// it. The GIL guards them.
+/// Gives each call a worker of its own. Workers are reused, because Embree keeps memory for every thread that ever used
+/// it. The GIL guards `idle`.
 class Lease {
   public:
     Lease() {
