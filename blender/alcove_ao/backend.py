@@ -190,7 +190,7 @@ class Bake:
             return read_ao(target, len(vertices))
 
     def image(self, surface, others, width, height):
-        """What pixels() turns into texels: rows from the bottom, as Blender stores them, or the bytes of an .exr."""
+        """Bakes an image. Returns values for pixels(): rows from the bottom, as in Blender, or the bytes of an .exr."""
         if alcove is not None:
             mesh = alcove.Mesh(surface.vertices, (surface.corners, surface.offsets), corner_normals=surface.normals,
                                corner_uvs=surface.uvs)
@@ -219,7 +219,7 @@ class Bake:
 
     @staticmethod
     def pixels(values, width, height):
-        """For the main thread only, as it may use Blender's data."""
+        """The texels of a result of image(). For the main thread only, as it may use Blender's data."""
         if not isinstance(values, bytes):
             return np.asarray(values)
         import bpy

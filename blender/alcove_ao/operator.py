@@ -53,7 +53,7 @@ def surface_of(thing, depsgraph, needs_uvs=False):
 
 
 def nearest_vertices(thing, depsgraph):
-    """For each vertex of the object's own mesh, the nearest one of the mesh with modifiers; None if these match."""
+    """For each vertex of the object's own mesh, the nearest vertex of the mesh with modifiers; None if they match."""
     from mathutils.kdtree import KDTree
 
     evaluated = thing.evaluated_get(depsgraph)
