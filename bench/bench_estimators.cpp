@@ -20,7 +20,7 @@ namespace {
 using namespace alcove;
 
 constexpr float radius = 0.1f;
-/// The voxel that voxelize() chooses for that radius.
+/// The voxel that voxelize() chooses for a radius of a tenth of the diagonal.
 constexpr float voxel = GridOptions{}.largest_voxel;
 
 const LevelStack& field() {

@@ -1,6 +1,6 @@
-/// From an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: voxelize(), compared with
-/// openvdb::tools::meshToVolume with its default flags, on a scan of 26,002 vertices and its subdivisions of 104,002
-/// and 416,002. Compare CPU times; with two threads, compare real times.
+/// The cost of converting an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: voxelize(),
+/// and for comparison openvdb::tools::meshToVolume with its default flags, on a scan of 26,002 vertices and its
+/// subdivisions of 104,002 and 416,002. Compare CPU times; with two threads, compare real times.
 ///
 ///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/base/parallel.h"

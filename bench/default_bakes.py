@@ -30,7 +30,7 @@ PLANS = {"default": [], "auto": ["--via", "auto"], "exact": ["--via", "mesh"]}
 TRUTH_SEED = 12345
 MANY_VERTICES = 60000  # from here on, the truth has fewer rays
 LARGE_SCAN = 200000
-RATIO, SECONDS = 1.5, 0.3  # the default costs too much if it exceeds exact by both
+RATIO, SECONDS = 1.5, 0.3  # the default costs too much if it exceeds exact by both the factor and the difference
 PLY_TYPES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H",
              "uint16": "H", "int": "i", "int32": "i", "uint": "I", "uint32": "I", "float": "f", "float32": "f",
              "double": "d", "float64": "d"}
@@ -232,7 +232,7 @@ def share(count, total):
 
 
 def is_mismatch(plan):
-    """Whether the estimate is off by more than 30 % of the truth, and either is large enough to matter."""
+    """Whether the estimate is off by more than 30 % of the truth, and either of the two is large enough to matter."""
     true, estimated = plan["true_rmse"], plan["estimated_rmse"]
     if estimated is None:
         return False

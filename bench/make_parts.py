@@ -756,7 +756,7 @@ def write_ply(mesh, file):
 
 
 def read(file):
-    """A mesh that write() has written. Corners of an .stl at the same position are one point."""
+    """Reads a mesh that write() has written. Corners of an .stl at the same position are one point."""
     if file.suffix == ".off":
         return read_off(file)
     if file.suffix == ".obj":

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The RMSE of texture maps against exact rays at the same texels, and what the bake estimates.
+"""The RMSE of texture maps against exact rays at the same texels, and the RMSE that the bake estimates.
 
     bench/map_errors.py [--size 1024] [--rays 1024] MESH.obj...
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The CPU time of texture maps beside that of exact rays at every texel with the same error.
+"""Compares the CPU time of texture maps with that of exact rays at every texel, for the same error.
 
     bench/map_speed.py [--sizes 2048,4096] [--repeat 5] [--alcove PROGRAM] MESH.obj...
 
-The rays are those of --method exact --no-pilot: Embree alone, in streams, without a grid. Their count is the smallest
-for which a map of 512 x 512 differs from that of 1,024 rays by at most the error of the quality. Runs whole programs on
-one thread, in turn, and prints medians of the CPU seconds. Meshes need UVs, such as those that bench/unwrap.py writes.
+The rays are those of --method exact --no-pilot: Embree alone, in streams, without a grid. Their number is the
+smallest for which the RMSE of a map of 512 x 512, against a map of 1,024 rays, is at most the error of the quality.
+Runs whole programs on one thread, in turn, and prints medians of the CPU seconds. Meshes need UVs, such as those that
+bench/unwrap.py writes.
 """
 import argparse
 import math
@@ -21,7 +22,7 @@ ERRORS = {'draft': 0.05, 'good': 0.02}
 
 
 def rays_of_error(mesh, error):
-    """The smallest count of exact rays with this RMSE, which falls with the count."""
+    """The smallest number of exact rays that reaches this RMSE. The RMSE falls as the number grows."""
     _, truth = bake(mesh, 512, '--method', 'exact', '--rays', '1024', '--seed', '7', '--no-pilot')
 
     def is_enough(rays):

@@ -25,7 +25,7 @@ struct Scan {
     std::vector<Surfel> surfels; ///< in file order
 };
 
-/// Subdivided `level` times: 26,002, 104,002 and 416,002 vertices.
+/// The scan, subdivided `level` times: 26,002, 104,002 and 416,002 vertices.
 inline const Scan& scan(std::int64_t level = 1) {
     static std::array<std::unique_ptr<const Scan>, 3> scans;
     auto& entry = scans[static_cast<std::size_t>(level)];

@@ -214,7 +214,7 @@ def triangulate(loops):
 
 
 def prism(loops, z0, z1):
-    """A polygon, the first loop, with holes, the others, between two heights."""
+    """A prism between two heights. The first loop is its outline, and the others are holes."""
     loops = [loop if (signed_area(loop) > 0) == (i == 0) else loop[::-1] for i, loop in enumerate(loops)]
     flat = list(itertools.chain(*loops))
     n = len(flat)
@@ -371,7 +371,7 @@ def icosphere(radius, level):
 
 
 def subdivided(mesh, is_wanted, normals=None):
-    """Splits the wanted triangles into four and their neighbours so that no gap opens.
+    """Splits each wanted triangle into four, and splits the neighbours so that no gap opens.
 
     With normals, new points lie between an edge and the curve that the normals at its ends suggest.
     """

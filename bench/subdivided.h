@@ -44,8 +44,8 @@ inline double value_noise(const Vec3d& p) {
     return sum;
 }
 
-/// Moves the vertices along their normals by noise: one mean edge high in waves of 16 edges, plus half as high in waves
-/// of 8.
+/// Moves the vertices along their normals by noise. The noise is one mean edge high, in waves 16 edges long, plus half
+/// as high, in waves 8 edges long.
 inline Mesh displaced(Mesh mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const std::vector<Vec3> normals = angle_weighted_normals(mesh, triangles);

@@ -26,7 +26,7 @@ THICKNESSES = (0.5, 0.7, 1.0, 1.3, 1.7, 2.0)
 
 
 def lines(*pieces):
-    """Plane positions: the pieces (first, last, count), without repeats."""
+    """The positions of planes, in the steps of the pieces (first, last, count), without repeats."""
     positions = sorted({round(x, 9) for first, last, count in pieces for x in steps(first, last, count)})
     return [x for i, x in enumerate(positions) if i == 0 or x - positions[i - 1] > 1e-7]
 
@@ -65,7 +65,7 @@ def with_neighbour(t):
 
 
 def turned(mesh, seed):
-    """Rotated about two axes, scaled to a diagonal of 1."""
+    """Rotates a mesh about its three axes, by random angles."""
     source = random.Random(seed)
     for a, b in ((0, 1), (1, 2), (0, 2)):
         angle = source.uniform(0, 2 * math.pi)
