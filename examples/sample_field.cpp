@@ -27,7 +27,7 @@ int main(int argument_count, char** arguments) try {
     const alcove::Vec3 above{0.0f, highest.y + 0.1f, 0.0f};
     std::printf("above the box: %.3f scene units\n", field.map(above) * frame.diagonal);
 
-    // A batch is three arrays. The caller gives an upper bound on their distance from the surface.
+    // A batch is three arrays. The caller gives an upper bound on the distance of the points from the surface.
     constexpr std::size_t count = 4;
     std::array<float, count> x{}, y{}, z{}, distances{};
     for (std::size_t i = 0; i < count; ++i)
