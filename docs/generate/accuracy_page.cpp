@@ -94,7 +94,7 @@ std::string table_of(const std::map<float, std::vector<Measurement>>& by_radius)
     return text;
 }
 
-/// Error and time, with the grid apart, on a mesh whose finest detail is a few edges long.
+/// Error and time on a mesh whose finest detail is a few edges long. The time of the grid is listed separately.
 std::string dense_section(const fs::path& file) {
     const MeasuredMesh mesh("dense", displaced(subdivided(subdivided(read_mesh(file)))));
     constexpr float radius = 0.1f;
@@ -168,7 +168,7 @@ class PlanComparison {
         }
     }
 
-    /// What the planner did for an error.
+    /// What the planner did for a requested error.
     struct PlannedRun {
         Plan plan;
         std::vector<Plan> failed; ///< earlier bakes whose error was too large
@@ -246,7 +246,7 @@ class PlanComparison {
             run.failed.push_back(run.plan);
         }
     }
-    /// Counts each grid and the BVH once.
+    /// The seconds of the plan and of the bakes that failed. Counts each grid and the BVH once.
     double seconds_of_all(const Result& result) const {
         double sum = result.plan.seconds(), bvh = result.plan.tree_seconds;
         std::set<float> grids{result.bake.plan.largest_voxel};

@@ -51,7 +51,8 @@ class MeasuredChoices {
     explicit MeasuredChoices(const std::filesystem::path& file);
 
     std::size_t vertices() const { return mesh_.surfels.size(); }
-    /// The cheapest of our choices that meets the error, and Embree alone with as many rays as that takes.
+    /// Compares the cheapest of our choices that meets the error with Embree alone, with as many rays as it needs to
+    /// meet the error.
     Comparison compare(double error) const;
 
   private:

@@ -1,4 +1,4 @@
-/// Baselines: simple operations on the same data that a bake competes with.
+/// Baselines for a bake: simple operations on the same data.
 #pragma once
 
 #include <filesystem>

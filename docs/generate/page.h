@@ -1,4 +1,4 @@
-/// Shared by the programs that write the pages of docs/.
+/// Functions shared by the programs that write the pages of docs/.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -11,7 +11,7 @@
 
 namespace alcove::docs {
 
-/// \throw IoError if the file cannot be written.
+/// Writes a text to a file. \throw IoError if the file cannot be written.
 inline void write_text(const std::filesystem::path& file, std::string_view text) {
     std::ofstream page(file);
     page << text;

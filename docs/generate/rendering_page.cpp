@@ -46,7 +46,7 @@ struct LoadedScene {
     }
 };
 
-/// Over the pixels that the renderable covers completely.
+/// The RMSE over the pixels that the renderable covers completely.
 double rmse(const std::vector<float>& ao, const std::vector<float>& truth, const std::vector<float>& alpha) {
     double sum = 0.0;
     std::size_t count = 0;

@@ -1,5 +1,5 @@
-/// CPU seconds of work in this process and of other programs. Things to compare take turns, because the clock rate of a
-/// shared machine drifts over minutes.
+/// CPU seconds of work in this process and of other programs. Programs and functions to compare are timed in turns,
+/// because the clock rate of a shared machine drifts over minutes.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct Run {
     std::string output; ///< stdout
 };
 
-/// \throw std::runtime_error if the program cannot start or ends with another code than 0.
+/// Runs a command. \throw std::runtime_error if the program cannot start or if its exit code is not 0.
 Run run(const std::vector<std::string>& command);
 
 }
