@@ -76,7 +76,7 @@ build base "$base"
 build head "$head"
 
 # Runs the benchmarks of a program that match a filter, in both trees, and writes the results to a folder. The trees
-# alternate in running first.
+# take turns at running first.
 run_both() {
     local folder=$1 round=$2 program=$3 filter=$4 sides=(base head) side
     ((round % 2)) || sides=(head base)
