@@ -65,7 +65,7 @@ set(meshoptimizer_only_in "^lib/alcove/mesh/formats/gltf/gltf_compression\\.cpp$
 set(draco_headers "^draco/")
 set(draco_only_in "^lib/alcove/mesh/formats/gltf/gltf_compression\\.cpp$")
 
-# Each of these takes a quarter of a minute to compile, because of OpenVDB.
+# The number of sources that may include OpenVDB: each takes a quarter of a minute to compile.
 set(max_openvdb_sources 9)
 
 set(failures)

@@ -29,13 +29,13 @@ class ProgramTest : public testing::Test {
     /// Runs the program with stdin closed and stdout and stderr not terminals. File permissions apply even to root.
     Outcome run(std::vector<std::string> arguments) const;
 
-    /// The same, but sends a signal after some milliseconds if the program is still running.
+    /// Like run(), but sends `signal` after `milliseconds` if the program is still running.
     Outcome run_until(std::vector<std::string> arguments, int signal, int milliseconds) const;
 
-    /// The same, but sends a signal as soon as part of an output file exists.
+    /// Like run(), but sends `signal` as soon as part of an output file exists.
     Outcome run_until_part(std::vector<std::string> arguments, int signal) const;
 
-    /// Expects that exit code, nothing on stdout, and one line on stderr that contains all of `parts`.
+    /// Expects the exit code `code`, nothing on stdout, and one line on stderr that contains all of `parts`.
     void expect_refusal(const std::vector<std::string>& arguments, int code,
                         const std::vector<std::string>& parts) const;
 

@@ -14,12 +14,12 @@ class SpecialFiles : public ProgramTest {
     void link(const std::string& target, const std::string& name) const {
         std::filesystem::create_symlink(target, folder_ / "work" / name);
     }
-    /// Returns the whole path.
+    /// Makes a named pipe. Returns its full path.
     std::string make_pipe(const std::string& name) const {
         EXPECT_EQ(::mkfifo((folder_ / "work" / name).c_str(), 0600), 0);
         return folder_ / "work" / name;
     }
-    /// All verbs that read a mesh, with this one as their input.
+    /// One run of each verb that reads a mesh, with `mesh` as input.
     static std::vector<std::vector<std::string>> readings_of(const std::string& mesh) {
         return {{"info", mesh},
                 {"bake", mesh, "-o", "out.ply"},
@@ -28,7 +28,7 @@ class SpecialFiles : public ProgramTest {
                 {"render", mesh, "-o", "out.png"},
                 {"measure", mesh}};
     }
-    /// Expects exit code 3 of each run, with `more` arguments.
+    /// Expects that each run, with `more` appended to its arguments, ends with exit code 3.
     void expect_refusals(const std::vector<std::vector<std::string>>& runs, const std::vector<std::string>& more,
                          const std::vector<std::string>& parts) const {
         for (std::vector<std::string> arguments : runs) {

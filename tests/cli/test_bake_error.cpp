@@ -68,8 +68,8 @@ TEST_F(BakeError, CountsSurroundingsAndGoesWithOtherAttributes) {
 }
 
 /// Rays miss fins thinner than a voxel. The warning names a voxel that resolves them, or a method that does not depend
-/// on it. The normals are those of the faces: with others, the grid's rounding of the rims causes a larger error than
-/// thin walls do.
+/// on it. The bake uses the normals of the faces: with other normals, the grid's rounding of the rims causes a larger
+/// error than thin walls do.
 TEST_F(BakeError, OfThinWallsComesWithTheVoxelThatMendsIt) {
     write_mesh(extremes::comb(24, 0.5 / 256, 2.0 / 256, true), folder_ / "work/fins.ply");
     const std::vector<std::string> bake{"bake", "fins.ply", "-o", "a.ply", "--json", "--normals", "area"};

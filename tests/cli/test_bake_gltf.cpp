@@ -12,7 +12,7 @@ namespace {
 
 class BakeGltf : public ProgramTest {
   protected:
-    /// A floor with a lid above it, in nodes of these names.
+    /// A floor with a lid above it, in nodes named "floor" and "lid".
     void write_room() const {
         GltfBuilder room;
         const std::size_t square = room.add_mesh({room.square()});

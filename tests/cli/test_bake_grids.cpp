@@ -15,7 +15,7 @@ namespace {
 
 class BakeGrids : public ProgramTest {
   protected:
-    /// A sphere of radius 2 around (5, 6, 7), as a mesh and as a level set for that radius of occlusion.
+    /// A sphere of radius 2 around (5, 6, 7), as a mesh and as a level set for the given radius of occlusion.
     void write_sphere(float voxel, float radius) const {
         Mesh mesh;
         add_part(mesh, sphere_mesh(4), 2.0, center_);
@@ -103,7 +103,7 @@ TEST_F(BakeGrids, TheGridOfAnotherMeshIsNoticed) {
     write("cube.off", cube_off);
     expect_refusal({"bake", "cube.off", "-o", "a.ply", "--grid", "sphere.vdb"}, bad_input,
                    {"cube.off", "8 of 8 vertices are more than two voxels off", "give the grid of this mesh"});
-    // A few vertices may be elsewhere, and those without faces anywhere.
+    // A few vertices may have moved, and vertices without faces may be anywhere.
     Mesh mesh;
     add_part(mesh, sphere_mesh(4), 2.0, center_);
     const std::size_t count = mesh.vertex_count();

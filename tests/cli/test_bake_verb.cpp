@@ -222,7 +222,8 @@ TEST_F(BakeVerb, WeldJoinsVerticesButKeepsThemInTheOutput) {
                    {"soup.off: --weld: joins the corners of every face"});
 }
 
-/// The normals of the file differ where vertices coincide, so they must not keep the vertices apart if they are unused.
+/// The normals of the file differ where vertices coincide. If these normals are not used, they must not keep the
+/// vertices apart.
 TEST_F(BakeVerb, WeldJoinsVerticesWhoseNormalsAreComputed) {
     // Two faces of a valley of 90 degrees, each with vertices and a normal of its own.
     write("valley.obj", "v 0 0 0\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 0 0 0\nv 0 0 1\nv 0 1 1\nv 0 1 0\n"

@@ -38,7 +38,7 @@ class Faults : public ProgramTest, public testing::WithParamInterface<Job> {
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
-    /// The same verbs with less work.
+    /// Arguments of the same verb for less work.
     std::vector<std::string> quick_arguments(const std::vector<std::string>& more = {}) const {
         std::vector<std::string> all = arguments(more);
         for (std::string& word : all)

@@ -73,7 +73,7 @@ TEST_F(Limits, LessMemoryMakesAGridCoarser) {
     EXPECT_GT(voxel("10MB"), 1.5 * voxel("1GB"));
     expect_refusal({"voxelize", mesh, "-o", "out.vdb", "--voxel", "0.1%", "--max-memory", "30MB", "--max-read", "1GB"},
                    bad_input, {"over the limit of 0.03 GB", "--voxel", "--max-memory"});
-    // A memory limit that no grid fits is no reason to refuse rays on the mesh.
+    // A memory limit that is too small for any grid is no reason to refuse rays on the mesh.
     EXPECT_EQ(run({"bake", "cube.off", "-o", "out.ply", "--method", "exact", "--max-memory", "10kB"}).code, done);
     expect_refusal({"bake", "cube.off", "-o", "out.ply", "--method", "traced", "--max-memory", "10kB"}, bad_input,
                    {"cube.off", "--max-memory"});

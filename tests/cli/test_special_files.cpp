@@ -48,7 +48,7 @@ TEST_F(SpecialFiles, AFileThatCannotBeReadIsRefusedAtOnce) {
                     {}, {"cannot be read: Input/output error"});
 }
 
-/// A library opens these by itself, so they cannot be pipes, and nothing waits for a writer.
+/// A library opens these files by itself, so they cannot be pipes, and nothing waits for a writer.
 TEST_F(SpecialFiles, GridsAndImagesMustBeFiles) {
     make_pipe("pipe.vdb");
     make_pipe("pipe.png");

@@ -38,8 +38,8 @@ const [inPath, outPath, option] = process.argv.slice(2);
 const before = option === "--converted" ? undefined : parse(inPath), after = parse(outPath);
 const packed = new Set(option === "--packed" ? before.json.images.map((image) => image.bufferView) : []);
 
-/// Everything of `a` is in `b`. What an output may change: where buffers are and how long, the mesh of a node,
-/// and values that an earlier bake has added.
+/// Checks that everything of `a` is in `b`. An output may differ in the place and length of buffers, in the mesh of a
+/// node, and in values that an earlier bake has added.
 function compare(a, b, path) {
   if (/^\/buffers\/\d+\/(uri|byteLength)$/.test(path) || /^\/nodes\/\d+\/mesh$/.test(path)) return;
   if (packed.has(Number(path.match(/^\/bufferViews\/(\d+)\/byteLength$/)?.[1]))) return;

@@ -63,8 +63,8 @@ ${colors}
   return image;
 }
 
-/// Runs in the page: how much the means of squares of 8 pixels differ, from 0 to 1, in squares without the background of
-/// the first picture. The means of edges are the same, however they are smoothed.
+/// Runs in the page. Returns the differences, from 0 to 1, between the means of squares of 8 x 8 pixels. Leaves out
+/// squares that show the background in the first picture. However edges are smoothed, the means stay the same.
 async function differences([first, second]) {
   const pixels = async (url) => {
     const image = new Image();

@@ -192,7 +192,7 @@ TEST(Maps, UdimTilesAreNumberedByTheirCorner) {
     EXPECT_EQ(first.tiles[0].coverage, all.tiles[0].coverage);
     EXPECT_TRUE(has_warning(first, "4 triangles lie partly or wholly outside the texture"));
     EXPECT_FALSE(has_warning(all, "outside the texture"));
-    // Rounding adds no tiles, and neither do tiles that a triangle only seems to reach.
+    // Rounding at the border adds no tile, and neither does a triangle that only seems to reach a tile.
     Mesh triangle;
     triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     triangle.add_face(std::array<std::uint32_t, 3>{0, 1, 2});

@@ -165,8 +165,8 @@ TEST(Projection, ASphereProjectsOntoAFinerOne) {
 }
 
 TEST(Projection, ACageLooksInItsOwnDirection) {
-    // Beside a step of the high mesh, a ray along the normal meets the top of the step, and one from a slanted cage its
-    // side.
+    // Beside a step of the high mesh, a ray along the normal meets the top of the step. A ray from a slanted cage meets
+    // the side of the step.
     const Mesh low = low_square();
     const std::vector<Mesh> high{high_square(48, [](double x, double) { return x < 0.0 ? 0.0 : 0.2; })};
     MapOptions options = options_with(high);

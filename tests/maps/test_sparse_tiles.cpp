@@ -1,4 +1,5 @@
-/// Maps of so many texels that most are interpolated between others, and the charts that they are interpolated in.
+/// Maps with so many texels that most are interpolated between others, and the charts within which they are
+/// interpolated.
 #include "alcove/maps/detail/charts.h"
 #include "alcove/maps/detail/open_tile.h"
 #include "alcove/maps/maps.h"
@@ -84,7 +85,7 @@ TEST(SparseTiles, TexelsWhoseNeighboursDifferAreBaked) {
     const BakedMaps maps = bake_maps(floor, {.radius = "2", .error = 0.02, .method = "exact", .occluders = {box}},
                                      {.width = width, .height = height});
     EXPECT_LT(maps.baked.evaluated, 0.5);
-    std::vector<std::size_t> sample; // of the texels, in even and odd rows and columns
+    std::vector<std::size_t> sample; // texels in even and odd rows and columns
     std::vector<SurfacePoint> points;
     for (std::size_t i = 0; i < ao_of(maps).size(); i += 37) {
         const double u = (static_cast<double>(i % width) + 0.5) / width,

@@ -1,4 +1,4 @@
-/// tangent_frames() against the widely used implementation of MikkTSpace, and properties.
+/// Compares tangent_frames() with the widely used implementation of MikkTSpace, and tests its properties.
 #include "alcove/maps/detail/tangent_frames.h"
 
 #include <gtest/gtest.h>

@@ -130,7 +130,8 @@ TEST(Calibrated, StaysWithinItsBoundsWhateverTheFieldAnswers) {
                 }
 }
 
-/// Meshes from the half that was never fitted. The RMSE of the best constant is the standard deviation of the truth.
+/// Meshes from the half to which no network was fitted. The RMSE of the best constant is the standard deviation of the
+/// truth.
 TEST(Calibrated, IsNearExactRaysOnMeshesItNeverSaw) {
     for (const char* name : {"elephant.off", "homer.off"}) {
         const test::RealMesh real(name);

@@ -1,4 +1,4 @@
-/// The cost of channels, and that requesting more of them changes none.
+/// Tests the cost of channels, and that requesting more channels changes no values.
 #include "alcove/base/types.h"
 #include "alcove/field/primitives.h"
 #include "alcove/occlusion/catalog.h"

@@ -32,7 +32,8 @@ struct Triangles {
     Vec3d corner(std::size_t t, int c) const { return Vec3d(positions[triangles[t][c]]); }
 };
 
-/// A ring of triangles around the hub. `height` is that of the hub above the ring, `waves` the amplitude of its waves.
+/// A ring of triangles around the hub. `height` is the height of the hub above the ring, and `waves` is the amplitude
+/// of the waves of the ring.
 Triangles ring(std::uint32_t count, float height, float waves) {
     Triangles result;
     const Vec3 hub = result.positions.front();
@@ -123,7 +124,7 @@ TEST(Fan, FindsTheSameHitsAsEveryTriangleAlone) {
     }
 }
 
-/// The hub is not the first corner, some triangles cannot be hit, and one is elsewhere.
+/// The hub is not the first corner, some triangles cannot be hit, and one is not at the hub.
 TEST(Fan, TakesAllTrianglesAroundAVertexWithMany) {
     Triangles shape = ring(smallest_fan, 0.1f, 0.0f);
     for (std::size_t i = 0; i < shape.triangles.size(); ++i)

@@ -123,8 +123,8 @@ TEST(Guided, WhatIsTheSameEverywhereStays) {
         EXPECT_NEAR(ao, 0.0f, 1e-5f);
 }
 
-/// A plate of half the spacing of its surfels, 0.02 above the floor. Its upper side is open. Its lower side is open
-/// only along the gap, where cos θ < 0.02/R: a share of (0.02/R)².
+/// A plate 0.02 above the floor, whose thickness is half the spacing of its surfels. Its upper side is open. Its lower
+/// side is open only along the gap, where cos θ < 0.02/R: a share of (0.02/R)².
 TEST(Guided, NothingLeaksThroughAThinPlate) {
     constexpr float thickness = 5e-4f, gap = 0.02f, radius = 0.1f;
     const RaySurface surface = Quads{}.add_plane(0).add_plane(gap).add_plane(gap + thickness).surface();
@@ -144,7 +144,8 @@ TEST(Guided, NothingLeaksThroughAThinPlate) {
     EXPECT_NEAR(below, (gap / radius) * (gap / radius), 0.005);
 }
 
-/// The same with a grid whose voxel is twice the thickness of the plate: the sides must not influence each other.
+/// The plate again, with a grid whose voxel is twice the thickness of the plate: the sides must not influence each
+/// other.
 TEST(Guided, NothingLeaksThroughAPlateOfHalfAVoxel) {
     constexpr std::uint32_t quads = 80;
     constexpr double voxel = 1.0 / 128, gap = 0.05;
@@ -272,7 +273,7 @@ TEST(Guided, TakesFewSurfelsAndNone) {
 }
 
 TEST(RecurrencePoint, IsLowDiscrepancyInEveryRun) {
-    // Of any 64 consecutive points, each half of the square in u or v has 32 ± 3.
+    // Of any 64 consecutive points, each half of the unit square, in u or in v, contains 32 ± 3.
     for (std::uint64_t first = 0; first < 100000; first += 997) {
         int left = 0, low = 0;
         for (std::uint64_t i = first; i < first + 64; ++i) {

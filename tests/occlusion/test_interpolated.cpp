@@ -19,7 +19,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr float radius = 0.1f;
 
-/// Squares of edge 100, each through a corner.
+/// Squares, each given by a corner and two edges.
 RaySurface squares(const std::vector<std::array<Vec3, 3>>& corner_and_edges) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;

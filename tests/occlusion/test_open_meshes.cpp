@@ -51,7 +51,7 @@ TEST(OpenMesh, SphereWithHolesIsAsRightAsTheWholeOne) {
         const Baked whole = bake_against_exact(test::sphere_mesh(4), radius);
         EXPECT_EQ(whole.sign, Sign::solid);
         for (const double missing : {0.0, 0.01, 0.2, 0.5}) {
-            // Removes a cap of that share of the area, and always one facet.
+            // Removes a cap with the share `missing` of the area, and in any case one facet.
             const double height = 1.0 - 2.0 * missing;
             bool first = true;
             const auto keep = [&](const Vec3d& p) { return !std::exchange(first, false) && p.z < height; };

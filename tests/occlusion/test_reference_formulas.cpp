@@ -34,7 +34,7 @@ using test::Distance;
 /// An estimator at its reference radius, and its formula.
 struct Formula {
     std::string name;
-    /// Evaluates it at `times` the reference radius.
+    /// Evaluates the estimator at `times` the reference radius.
     std::function<std::vector<float>(std::span<const Surfel>, const AnyField&, float times)> bake;
     std::function<double(const Distance&, const Vec3d&, const Vec3d&)> transcription;
     std::optional<double> open = 1.0; ///< value on an open plane; empty if it depends on the plane

@@ -88,7 +88,7 @@ void expect_no_leaks(double gap, double below, double tilt) {
             for (const bool upper : {false, true}) {
                 const bool from_front = pair.faces_up(upper) == !upper;
                 const bool to_front = pair.faces_up(!upper) == upper;
-                // A tenth of a voxel at the ray origins, and as much for interpolation between tilted planes.
+                // A tenth of a voxel for the starts of rays, and as much for interpolation between tilted planes.
                 constexpr double slack = 0.25;
                 const double early = slack + (from_front ? 0.0 : 2.0) + (to_front ? 0.0 : 1.9);
                 for (const float ao : pair.ao(upper, !upper)) {

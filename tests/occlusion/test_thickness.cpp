@@ -57,7 +57,7 @@ class ThicknessOfPlates : public testing::TestWithParam<double> {};
 
 TEST_P(ThicknessOfPlates, IsWithinAVoxel) {
     constexpr float voxel = 1.0f / 64, radius = 0.2f;
-    // In units of the diagonal, neglecting the contribution of the thickness to it.
+    // In units of the diagonal, which is computed without the thickness of the plate.
     const double thick = GetParam() * voxel;
     const double half = 0.5 / std::sqrt(2.0);
     const Mesh solid = test::box_mesh({half, half, thick / 2}, 1);

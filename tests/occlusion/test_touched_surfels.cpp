@@ -1,4 +1,4 @@
-/// The search for all surfels at once against each surfel and triangle alone.
+/// Compares the search for all surfels at once with a test of each surfel against each triangle.
 #include "alcove/occlusion/detail/touched_surfels.h"
 
 #include "alcove/base/detail/closest_point.h"
@@ -41,7 +41,7 @@ struct Scene {
     }
 };
 
-/// \return how many are touched.
+/// Expects the same surfels from both. \return the number of touched surfels
 std::size_t expect_same(const Mesh& mesh, float offset) {
     const Scene scene(mesh);
     const auto touched = find_touched(scene.surfels, RaySurface(scene.positions, scene.triangles), offset, uses_vertex);

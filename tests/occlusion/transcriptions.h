@@ -17,7 +17,8 @@ enum class Axes {
     surfel, ///< mirrored into the upper half around the normal
 };
 
-// Each returns its value at the surface point p with unit normal n, with the constants of the reference.
+// Each function returns the value of its formula at the surface point p with unit normal n, with the constants of the
+// reference.
 
 double classic(const Distance& d, const Vec3d& p, const Vec3d& n);
 double convexity(const Distance& d, const Vec3d& p, const Vec3d& n);

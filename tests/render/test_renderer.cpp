@@ -162,7 +162,7 @@ struct Sheet {
     }
     static float sample(int x, int y, int z) {
         const float d = signed_distance(x, y, z);
-        // Of the neighbours in a common cell, this one is furthest in front.
+        // Of the samples that share a cell with (x, y, z), this one is furthest in front of the plane.
         const bool crossed = signed_distance(x - 1, y + 1, z + 1) >= 0.0f;
         return voxel * (d < 0.0f && !crossed ? -d : d);
     }

@@ -65,7 +65,7 @@ class OwnColorsPicture : public testing::Test {
         }
     };
 
-    /// Colours of the picture are those of the surface.
+    /// The picture shows the colours of the surface.
     static Drawn draw(Scene scene, int samples = 1) {
         scene.ground.reset();
         scene.size = {64, 64};
@@ -229,7 +229,7 @@ TEST_F(OwnColorsPicture, ASceneFileSaysWhetherTheyAreShown) {
     expect_color(draw_scene("material = \"green\"\ncolor = \"own\"\n").at(0.5, 0.1), {1, 0, 0});
     EXPECT_TRUE(draw_scene("color = \"none\"\n").warnings.empty());
     EXPECT_TRUE(draw_scene("painted = true\n").warnings.empty());
-    // A colour for the surface and, as brightness, for the ao.
+    // The same vertex colour is the colour of the surface and, as brightness, multiplies the ao.
     expect_color(draw_scene("painted = true\ncolor = \"own\"\n").at(0.5, 0.1), {1.0 / 3.0, 0, 0});
 }
 

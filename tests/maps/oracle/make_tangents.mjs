@@ -13,7 +13,7 @@ const random = () => ((state = (state * 1103515245 + 12345) % 2147483648) / 2147
 
 const unit = (v) => v.map((x) => x / Math.hypot(...v));
 
-/** A grid of w × h quads on the unit square, with a point, normal and UV for each place. */
+/** A grid of w × h quads on the unit square, with a point, normal and UV for each vertex. */
 function grid(w, h, at) {
   const corners = [];
   for (let j = 0; j < h; ++j)
