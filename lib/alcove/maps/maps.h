@@ -117,10 +117,10 @@ struct BakedMaps {
 /// With high meshes, each texel is projected inward, from MapOptions::reach in front of the mesh, onto the first of
 /// their faces that faces outward. Texels that hit none get the values of their neighbours.
 ///
-/// Cost: per texel as bake() of points. Maps have many texels, so most of them are interpolated. In tiles that have at
-/// least a million texels and at least 1.1/error texels per triangle, texels get the mean of their neighbours where
-/// these differ by at most twice the error. This applies to ao alone with an error of at least 0.01, and without high
-/// meshes or subsamples. Thread-safety as bake().
+/// Cost: per texel as bake() of points. Maps have many texels, so most of them are interpolated. In dense tiles, only
+/// every second or fourth texel of every second or fourth row is baked at first; a texel between these gets their mean
+/// if they differ by at most twice the error, and is baked otherwise. This applies to ao alone with an error of at least
+/// 0.01, and without high meshes or subsamples. Thread-safety as bake().
 /// \throw like bake(), and InputError if the mesh has no UVs, no face covers a texel, or an option is out of range.
 /// LimitError if the maps do not fit in memory.
 BakedMaps bake_maps(const Mesh& mesh, const BakeOptions& bake = {}, const MapOptions& options = {});

@@ -10,7 +10,7 @@ namespace alcove::plan_table {
 /// As fractions of the diagonal; 1 stands for all larger radii.
 inline constexpr std::array radii{0.02, 0.05, 0.1, 0.2, 0.5, 1.0};
 
-/// CPU seconds. Costs per ray are for each radius, among 2^doublings_of_rays triangles.
+/// CPU seconds. The cost per ray is given for each radius, for rays shot at a mesh of 2^doublings_of_rays triangles.
 inline constexpr std::array seconds_per_ray{9.91e-08, 1.06e-07, 1.1e-07, 1.24e-07, 1.27e-07, 1.29e-07};
 inline constexpr double doublings_of_rays = 17;
 inline constexpr double rays_slower_per_doubling = 0.070;
