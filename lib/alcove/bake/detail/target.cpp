@@ -3,8 +3,9 @@
 #include "alcove/bake/detail/causes.h"
 #include "alcove/bake/detail/planner.h"
 #include "alcove/bake/detail/target_occluders.h"
+#include "alcove/bake/detail/target_surfels.h"
+#include "alcove/bake/detail/time_checks.h"
 #include "alcove/base/detail/stopwatch.h"
-#include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
 #include "alcove/grid/detail/plan.h"
 #include "alcove/occlusion/detail/interpolated.h"
@@ -26,69 +27,15 @@ OccluderNeeds needs_of(const Method& method, ChannelSet wanted, bool has_contact
     return needs;
 }
 
-/// Refuses a bake that would clearly miss the deadline. Estimates its time from a trial of 128 surfels spread over the
-/// mesh and doubles their number as long as the outcome is uncertain. All trials together bake at most a quarter of the
-/// surfels; a bake of fewer than about a thousand surfels is not checked.
-void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
-                const Occluders& occluders, const MethodChoice& choice, Settings settings, ChannelSet wanted) {
-    constexpr std::size_t max_batches = 64, min_stride = 8;
-    constexpr int max_samples = 1024; // of the trial; its time is proportional to their number
-    constexpr double certain = 2.0;   // ratio to the limit, above or below it
-    if (!deadline.is_set())
-        return;
-    // The trial omits the fit, which takes longer than the trial and whose time does not grow with the number of
-    // surfels.
-    settings.labels.reset();
-    double samples_left_out = 1.0;
-    if (choice.samples > max_samples) {
-        settings.parameters.emplace_back(parameter_of(choice.method->samples_are), max_samples);
-        samples_left_out = static_cast<double>(choice.samples) / max_samples;
-    }
-    const std::size_t batches = order.size() / SurfelBatch::capacity;
-    double seconds = 0.0; // for all surfels
-    for (std::size_t count = 2; count <= max_batches && count * min_stride <= batches; count *= 2) {
-        std::vector<Surfel> some;
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t batch = (2 * k + 1) * batches / (2 * count);
-            for (std::size_t i = 0; i < SurfelBatch::capacity; ++i)
-                some.push_back(surfels[order[batch * SurfelBatch::capacity + i]]);
-        }
-        const double part = shared_seconds_of([&] { evaluate(some, occluders, *choice.method, settings, wanted); });
-        seconds = part * samples_left_out * static_cast<double>(order.size()) / static_cast<double>(some.size());
-        if (certain * seconds < deadline.left() || seconds > certain * clearly_late * deadline.left())
-            break;
-    }
-    deadline.check(seconds, [&](double share) -> std::string {
-        const int fewer = static_cast<int>(share * choice.samples);
-        if (fewer >= 1)
-            return fmt::format("--{} {}", parameter_of(choice.method->samples_are), fewer);
-        return choice.method->name == "calibrated" ? "" : "--method calibrated";
-    });
-}
-
-/// Refuses a plan that would clearly miss the deadline. Takes its time from the planner's cost table, so it assumes a
-/// machine as fast as the one that the table was measured on.
-void check_time(const Deadline& deadline, const Plan& plan, const PlanRequest& request, const Pilot& pilot) {
-    deadline.check(plan.seconds / static_cast<double>(thread_count()), [&](double share) -> std::string {
-        for (PlanRequest other = request; const double error : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1}) {
-            other.error = error;
-            other.exact_rays = 0;
-            if (error > request.error && Planner(other, pilot).expected().seconds < share * plan.seconds)
-                return fmt::format("--error {}", error);
-        }
-        return "";
-    });
-}
-
 class TargetBake {
   public:
     TargetBake(BakeTarget& target, const BakeTask& task, Surroundings& surroundings, const BakeProgress& progress)
         : target_(target), task_(task), surroundings_(surroundings), progress_(progress),
-          occluders_(target, surroundings, task.keep_grid, progress) {}
+          occluders_(target, surroundings, task.keep_grid, progress), surfels_(target, occluders_, result_.seconds) {}
 
     TargetResult run() {
         if (!is_dense())
-            find_contacts();
+            surfels_.find_contacts();
         if (!task_.error)
             bake_with_fixed_settings();
         else if (!task_.method || is_planned(*task_.method))
@@ -114,29 +61,6 @@ class TargetBake {
     }
 
   private:
-    void find_contacts() {
-        const RaySurface& rays = occluders_.rays();
-        Stopwatch watch;
-        alcove::find_contacts(target_.surfels, rays, ray_offset(target_.radius), target_.is_own_face);
-        contacts_ = count_contacts(target_.surfels);
-        has_all_contacts_ = true;
-        result_.seconds.grid += watch.lap();
-    }
-
-    static std::size_t count_contacts(std::span<const Surfel> surfels) {
-        return static_cast<std::size_t>(
-            std::count_if(surfels.begin(), surfels.end(), [](const Surfel& s) { return s.away != Vec3(0.0f); }));
-    }
-
-    /// Finds the contacts of copies of some surfels.
-    void find_contacts(std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
-        if (has_all_contacts_)
-            return;
-        alcove::find_contacts(
-            surfels, occluders_.rays(), ray_offset(target_.radius),
-            [&](std::size_t i, const Triangle& triangle) { return target_.is_own_face(indices[i], triangle); });
-    }
-
     /// Whether most surfels may be interpolated, so that their contacts need not be known.
     bool is_dense() const {
         constexpr std::size_t many_surfels = 100'000;
@@ -145,7 +69,7 @@ class TargetBake {
     }
 
     OccluderNeeds needs_of(const Method& method, ChannelSet wanted) const {
-        return alcove::needs_of(method, wanted, !has_all_contacts_ || contacts_ > 0);
+        return alcove::needs_of(method, wanted, surfels_.may_touch());
     }
 
     static bool is_planned(const Method& method) {
@@ -166,40 +90,10 @@ class TargetBake {
         return [this](double done) { progress_("baking", done); };
     }
 
-    const std::vector<std::uint32_t>& order() {
-        if (order_.empty())
-            order_ = spatial_order(target_.surfels);
-        return order_;
-    }
-
-    const Pilot& pilot(const PilotOptions& options) {
-        if (!pilot_) {
-            const RaySurface& rays = occluders_.rays();
-            Stopwatch watch;
-            PilotOptions share = options;
-            share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
-            if (!has_all_contacts_)
-                find_contacts_of_sample(evenly(order(), share.surfels));
-            pilot_.emplace(target_.surfels, order(), rays, target_.radius, share);
-            result_.seconds.pilot += watch.lap();
-        }
-        return *pilot_;
-    }
-
-    /// Finds the contacts of the surfels that the pilot samples, and from them estimates how many surfels have
-    /// contacts.
-    void find_contacts_of_sample(const std::vector<std::uint32_t>& indices) {
-        std::vector<Surfel> some = pick(target_.surfels, indices);
-        find_contacts(indices, some);
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            target_.surfels[indices[i]] = some[i];
-        contacts_ = count_contacts(some) * target_.surfels.size() / std::max<std::size_t>(some.size(), 1);
-    }
-
     Settings settings_of(const MethodChoice& choice) const {
         Settings settings = task_.settings;
         settings.radius = target_.radius;
-        settings.labels = pilot_ ? pilot_->labels() : nullptr;
+        settings.labels = surfels_.known_pilot() ? surfels_.known_pilot()->labels() : nullptr;
         for (const auto& parameter : choice.settings(target_.radius).parameters)
             settings.parameters.push_back(parameter); // the last value of a parameter wins
         if (choice.method->samples_are == SampleKind::rays)
@@ -212,11 +106,12 @@ class TargetBake {
         const Occluders occluders = occluders_.get(needs, largest_voxel);
         last_voxel_ = largest_voxel;
         if (!task_.error)
-            check_time(task_.deadline, target_.surfels, order(), occluders, choice, settings, task_.attributes);
+            check_time(task_.deadline, target_.surfels, surfels_.order(), occluders, choice, settings,
+                       task_.attributes);
         const Progress progress = baking_progress();
         Stopwatch watch;
-        result_.values =
-            evaluate(target_.surfels, order(), occluders, *choice.method, settings, task_.attributes, progress);
+        result_.values = evaluate(target_.surfels, surfels_.order(), occluders, *choice.method, settings,
+                                  task_.attributes, progress);
         result_.seconds.occlusion += watch.lap();
         result_.choice = choice;
     }
@@ -227,10 +122,10 @@ class TargetBake {
         const std::vector<MethodRun> methods = runs_for(*plan.choice.method, settings_of(plan.choice), Channel::ao);
         const Occluders occluders = occluders_.get(needs_of(*plan.choice.method, task_.attributes), largest_voxel);
         Stopwatch watch;
-        const std::vector<std::uint32_t> sample = runs_of_surfels(runs, length);
+        const std::vector<std::uint32_t> sample = surfels_.runs(runs, length);
         const std::vector<Surfel> some = pick(target_.surfels, sample);
         const auto prepare = [&](std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
-            find_contacts(pick(sample, indices), surfels);
+            surfels_.find_contacts(pick(sample, indices), surfels);
         };
         const auto interpolated =
             evaluate_interpolated(some, spatial_order(some), occluders, methods.front(), interpolation, prepare);
@@ -248,22 +143,22 @@ class TargetBake {
         const Progress progress = baking_progress();
         const std::vector<MethodRun> runs = runs_for(method, settings, task_.attributes);
         const auto prepare = [&](std::span<const std::uint32_t> indices, std::span<Surfel> surfels) {
-            find_contacts(indices, surfels);
+            surfels_.find_contacts(indices, surfels);
         };
         Stopwatch watch;
-        std::optional<InterpolatedValues> interpolated =
-            evaluate_interpolated(target_.surfels, order(), occluders, runs.front(), interpolation, prepare, progress);
+        std::optional<InterpolatedValues> interpolated = evaluate_interpolated(
+            target_.surfels, surfels_.order(), occluders, runs.front(), interpolation, prepare, progress);
         result_.seconds.occlusion += watch.lap();
         if (!interpolated)
             return {};
-        const double rmse = pilot_->rmse(interpolated->values[Channel::ao]);
+        const double rmse = surfels_.known_pilot()->rmse(interpolated->values[Channel::ao]);
         result_.seconds.pilot += watch.lap();
         if (rmse > *task_.error)
             return rmse;
         result_.values = std::move(interpolated->values);
         for (std::size_t r = 1; r < runs.size(); ++r) {
-            ChannelValues others =
-                runs[r].method->bake(target_.surfels, order(), occluders, runs[r].settings, runs[r].wanted, progress);
+            ChannelValues others = runs[r].method->bake(target_.surfels, surfels_.order(), occluders, runs[r].settings,
+                                                        runs[r].wanted, progress);
             for (const ChannelInfo& channel : channels)
                 if (!others[channel.channel].empty())
                     result_.values[channel.channel] = std::move(others[channel.channel]);
@@ -313,10 +208,10 @@ class TargetBake {
     }
 
     void measure_error(const PilotOptions& options) {
-        if (!has_pilot() || pilot(options).empty())
+        if (!has_pilot() || surfels_.pilot(options).empty())
             return;
         Stopwatch watch;
-        result_.rmse = pilot_->rmse(result_.values[Channel::ao]);
+        result_.rmse = surfels_.known_pilot()->rmse(result_.values[Channel::ao]);
         result_.seconds.pilot += watch.lap();
     }
 
@@ -347,21 +242,9 @@ class TargetBake {
             settings.parameters.emplace_back(parameter_of(SampleKind::rays), choice.samples);
         }
         if (has_pilot())
-            settings.labels = pilot(pilot_beside(choice.rays())).labels();
+            settings.labels = surfels_.pilot(pilot_beside(choice.rays())).labels();
         evaluate_with(choice, settings, GridOptions{}.largest_voxel);
         measure_error(pilot_beside(choice.rays()));
-    }
-
-    /// `count` runs of `length` surfels along the Morton curve, evenly spread.
-    std::vector<std::uint32_t> runs_of_surfels(std::size_t count, std::size_t length) {
-        const std::vector<std::uint32_t>& order = this->order();
-        length = std::min(length, order.size() / count);
-        std::vector<std::uint32_t> runs;
-        for (std::size_t run = 0; run < count; ++run) {
-            const auto begin = order.begin() + static_cast<std::ptrdiff_t>(run * order.size() / count);
-            runs.insert(runs.end(), begin, begin + static_cast<std::ptrdiff_t>(length));
-        }
-        return runs;
     }
 
     static constexpr std::size_t sample_stride = 8;
@@ -375,7 +258,7 @@ class TargetBake {
         if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
             return {};
         if (sample_.empty())
-            sample_ = runs_of_surfels(runs, target_.surfels.size() / (runs * stride));
+            sample_ = surfels_.runs(runs, target_.surfels.size() / (runs * stride));
         try {
             const float voxel = has_grid ? GridOptions{}.largest_voxel : plan.largest_voxel;
             const Occluders occluders = occluders_.get(needs_of(*plan.choice.method, Channel::ao), voxel);
@@ -383,7 +266,7 @@ class TargetBake {
             const std::vector<float> ao = evaluate(pick(target_.surfels, sample_), occluders, *plan.choice.method,
                                                    settings_of(plan.choice), Channel::ao)[Channel::ao];
             result_.seconds.occlusion += watch.lap();
-            return pilot_->rmse(ao, sample_);
+            return surfels_.known_pilot()->rmse(ao, sample_);
         } catch (const LimitError&) { // the bake itself reports this
             return {};
         }
@@ -391,7 +274,7 @@ class TargetBake {
 
     void bake_by_plan() {
         const SurfaceSize size = surface_size(target_.mesh, target_.triangles);
-        const Pilot& pilot = this->pilot(pilot_for(*task_.error));
+        const Pilot& pilot = surfels_.pilot(pilot_for(*task_.error));
         const bool has_grid = has_fixed_grid();
         const PlanRequest request{
             .error = *task_.error,
@@ -401,7 +284,7 @@ class TargetBake {
             .seed = task_.seed,
             .exact_rays = pilot.rays_for(*task_.error, task_.seed),
             .surfels = target_.surfels.size(),
-            .contacts = contacts_,
+            .contacts = surfels_.contacts(),
             .triangles = target_.triangles.size(),
             .area = size.area,
             .finest_voxel = surroundings_.fit() ? finest_voxel(size, target_.triangles.size(), target_.voxelizing.grid)
@@ -412,8 +295,7 @@ class TargetBake {
         Planner planner(request, pilot);
         if (bake_interpolated(request, pilot, planner.expected().seconds))
             return;
-        if (!has_all_contacts_)
-            find_contacts();
+        surfels_.find_contacts();
         for (;;) {
             check_time(task_.deadline, planner.expected(), request, pilot);
             const Plan plan = planner.next();
@@ -446,7 +328,7 @@ class TargetBake {
         constexpr int first_rays = 8, max_rays = 4096;
         constexpr double no_improvement = 0.95; // ratio of errors
         const Method& method = *task_.method;
-        const Pilot& pilot = this->pilot(pilot_for(*task_.error));
+        const Pilot& pilot = surfels_.pilot(pilot_for(*task_.error));
         const bool chooses_voxel = !has_fixed_grid();
         struct Best {
             MethodChoice choice;
@@ -525,12 +407,9 @@ class TargetBake {
     Surroundings& surroundings_;
     const BakeProgress& progress_;
     TargetOccluders occluders_;
-    std::size_t contacts_ = 0; // surfels that touch other faces; estimated until all contacts are known
-    bool has_all_contacts_ = false;
-    std::vector<std::uint32_t> order_; // see order()
-    std::optional<Pilot> pilot_;
-    std::vector<std::uint32_t> sample_; // see rmse_on_sample()
     TargetResult result_;
+    TargetSurfels surfels_;
+    std::vector<std::uint32_t> sample_; // see rmse_on_sample()
     float last_voxel_ = GridOptions{}.largest_voxel;
 };
 
