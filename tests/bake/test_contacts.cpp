@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -287,6 +288,44 @@ TEST(Contacts, SeamsOfSmoothSurfacesKeepTheirValues) {
 
 // Each of two distant parts has the same occlusion as when it is baked alone, however large their joint bounding box
 // is.
+double rmse_between(std::span<const float> a, std::span<const float> b) {
+    double squares = 0.0;
+    for (std::size_t v = 0; v < b.size(); ++v)
+        squares += std::pow(double{a[v]} - double{b[v]}, 2);
+    return std::sqrt(squares / static_cast<double>(b.size()));
+}
+
+TEST(MeasuredRmse, IsRightForEightVertices) {
+    const Mesh cube = moved(box_mesh({1, 1, 1}, 1), {0, 1, 0});
+    const Baked truth = bake(
+        cube,
+        {.radius = "1", .method = "exact", .parameters = {{"rays", 4096}}, .seed = 99, .ground = true, .pilot = false});
+    for (const Way& run : runs()) {
+        BakeOptions options = run.options;
+        options.radius = "1";
+        options.ground = true;
+        const Baked baked = bake(cube, options);
+        const double rmse = rmse_between(baked.ao(), truth.ao());
+        ASSERT_TRUE(baked.rmse);
+        EXPECT_NEAR(*baked.rmse, rmse, std::max(0.3 * rmse, 0.004)) << run.name;
+    }
+}
+
+// The rays start a tenth of the depth of the grooves above the surface.
+TEST(MeasuredRmse, CountsTheHeightAtWhichRaysStart) {
+    constexpr double radius = 0.3, ratio = 1e-5;
+    Mesh grooves = floor_mesh(1.0, 64);
+    for (Vec3d& p : grooves.positions)
+        p.y = std::llround(32.0 * p.x) % 2 == 0 ? 0.0 : 0.04;
+    Mesh both = grooves;
+    add_part(both, grooves, 1.0, Vec3d(radius / ratio, 0, 0));
+    const Baked alone =
+        bake(grooves, {.radius = Length(radius), .method = "exact", .parameters = {{"rays", 512}}, .pilot = false});
+    const Baked far = bake(both, {.radius = Length(radius), .method = "exact"});
+    ASSERT_TRUE(far.rmse);
+    EXPECT_GT(*far.rmse, 0.7 * rmse_between(far.ao(), alone.ao()));
+}
+
 TEST(Contacts, SmallRadiiInLargeScenes) {
     Mesh part = floor_mesh(1.0, 16);
     const auto wall_begin = part.vertex_count();
@@ -305,10 +344,7 @@ TEST(Contacts, SmallRadiiInLargeScenes) {
             BakeOptions options = run.options;
             options.radius = Length(radius);
             const Baked alone = bake(part, options), far = bake(both, options);
-            double squares = 0.0;
-            for (std::size_t v = 0; v < part.vertex_count(); ++v)
-                squares += std::pow(alone.ao()[v] - far.ao()[v], 2);
-            const double rmse = std::sqrt(squares / static_cast<double>(part.vertex_count()));
+            const double rmse = rmse_between(far.ao(), alone.ao());
             EXPECT_LT(rmse, 0.03) << run.name << ", R/D = " << ratio;
             ASSERT_TRUE(far.rmse);
             EXPECT_GT(*far.rmse, 0.7 * rmse - 0.01) << run.name << ", R/D = " << ratio;

@@ -58,6 +58,11 @@ const Pilot& TargetSurfels::pilot(const PilotOptions& options) {
         Stopwatch watch;
         PilotOptions share = options;
         share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
+        // The noise of few surfels does not cancel out, but they can have many rays in little time.
+        constexpr std::size_t shared_rays = 1 << 17, most_rays = 4096;
+        const std::size_t per_surfel =
+            std::min(shared_rays / std::max<std::size_t>(target_.surfels.size(), 1), most_rays);
+        share.rays = std::max(share.rays, static_cast<int>(per_surfel / 2 * 2));
         if (!has_all_contacts_)
             find_contacts_of_sample(evenly(order(), share.surfels));
         pilot_.emplace(target_.surfels, order(), rays, target_.radius, share);
