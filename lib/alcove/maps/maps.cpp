@@ -263,14 +263,16 @@ class MapBake {
             merge(std::move(baked), sampled, samples_.size() - sampled, between);
         }
         samples_.clear();
+        filled_ = 0;
     }
 
     /// Interpolates the texels between samples; `ao` is that of the samples. Texels whose neighbours differ are
     /// appended to the samples. \return the points of the new samples
     std::vector<SurfacePoint> interpolate(std::span<const float> ao, std::size_t& between) {
         const float tolerance = 2.0f * sparse_error_; // as noise makes neighbours differ, too
-        for (std::size_t i = 0; i < ao.size(); ++i)
+        for (std::size_t i = filled_; i < ao.size(); ++i)
             tiles_[samples_[i].tile].map.layers.front().values[samples_[i].index] = ao[i];
+        filled_ = ao.size();
         const std::size_t sampled = samples_.size();
         for (auto number = static_cast<std::uint32_t>(finished_); number < tiles_.size(); ++number)
             if (tiles_[number].stride > 1)
@@ -427,6 +429,7 @@ class MapBake {
     std::vector<OpenTile> tiles_;
     std::size_t finished_ = 0;   // of the tiles
     HugeVector<Sample> samples_; // of the batch
+    std::size_t filled_ = 0;     // samples whose values interpolate() has stored
     BakedMaps maps_;
     float sparse_error_ = 0.0f; // RMSE of a map whose texels may be interpolated; 0: they may not
     double squares_ = 0.0, error_weight_ = 0.0, evaluated_ = 0.0, points_ = 0.0;

@@ -36,12 +36,16 @@ void finish(MapLayer& layer, const MapTile& map, const std::vector<std::uint16_t
                                                                                                   : attribute.missing;
 }
 
-/// Whether `test` is true for all texels from which `texel` is interpolated.
-template <class Test>
-bool all_around(const TexelsAround& around, std::size_t texel, std::size_t width, const Test& test) {
+/// Calls `visit(index)` for each texel from which one is interpolated.
+template <class Visit>
+void for_each_around(const TexelsAround& around, std::size_t texel, std::size_t width, const Visit& visit) {
     const std::size_t rows = around.down * width, across = around.across;
-    return test(texel - rows - across) && test(texel + rows + across) &&
-           (rows == 0 || across == 0 || (test(texel - rows + across) && test(texel + rows - across)));
+    visit(texel - rows - across);
+    visit(texel + rows + across);
+    if (rows > 0 && across > 0) {
+        visit(texel - rows + across);
+        visit(texel + rows - across);
+    }
 }
 
 /// Interpolates the texels of a row from neighbours at `distance`, and adds their number to `count`. Texels whose
@@ -59,12 +63,11 @@ void interpolate_row(OpenTile& tile, std::size_t row, std::size_t distance, floa
         if (!around.any())
             continue;
         float sum = 0.0f, least = 1.0f, most = 0.0f, neighbours = 0.0f;
-        all_around(around, texel, width, [&](std::size_t i) {
+        for_each_around(around, texel, width, [&](std::size_t i) {
             sum += values[i];
             least = std::min(least, values[i]);
             most = std::max(most, values[i]);
             ++neighbours;
-            return true;
         });
         if (most - least > tolerance) {
             others.push_back(static_cast<std::uint32_t>(texel));
@@ -98,9 +101,10 @@ TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y) {
         return {};
     const std::size_t texel = y * width + x;
     const std::uint32_t own = tile.owners.triangles[texel], chart = tile.faces->chart(own);
-    const bool is_inside = all_around(around, texel, width, [&](std::size_t i) {
+    bool is_inside = true;
+    for_each_around(around, texel, width, [&](std::size_t i) {
         const std::uint32_t triangle = tile.owners.triangles[i];
-        return triangle == own || (triangle != no_triangle && tile.faces->chart(triangle) == chart);
+        is_inside = is_inside && (triangle == own || (triangle != no_triangle && tile.faces->chart(triangle) == chart));
     });
     return is_inside ? around : TexelsAround{};
 }

@@ -44,7 +44,7 @@ TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y);
 
 /// Interpolates the texels in the rows whose neighbours have values, from large distances to small, and adds their
 /// number to `count`. \return texels whose neighbours differ by more than `tolerance`, all at one distance. They must
-/// get values before the next call, which continues from there. Empty if all texels have values
+/// get values before the next call, which continues from there. Empty if all texels have values.
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count);
 
 struct TexelCounts {
