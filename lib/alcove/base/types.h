@@ -63,10 +63,15 @@ struct Surfel {
     /// face on which the surfel's own faces lie.
     Vec3 away{0.0f};
     bool covered = false; ///< other faces cover the surfel's own faces: nothing is visible
+    /// The maximum height at which rays on triangles start. Finite where other faces are near, and the own faces so
+    /// small that rays could start beyond the others.
+    float highest = std::numeric_limits<float>::infinity();
 
     bool has_normal() const { return normal != Vec3(0.0f); }
     /// Where rays start: `height` above the surfel's own faces, and equally far from other faces that it touches.
     Vec3 origin(float height) const { return position + height * (normal + away); }
+    /// The same, at no more than the maximum height.
+    Vec3 ray_origin(float height) const { return origin(height < highest ? height : highest); }
 };
 
 struct Ray {

@@ -42,6 +42,7 @@ struct SurfelBatch {
     Values x, y, z;    ///< positions
     Values nx, ny, nz; ///< unit normals
     Values lx, ly, lz; ///< normals plus Surfel::away
+    Values highest;    ///< Surfel::highest
     std::size_t count = 0;
 
     /// The position is moved by `lift` away from the faces that the surfel touches.
@@ -49,6 +50,7 @@ struct SurfelBatch {
         set(x, y, z, surfel.position + lift * surfel.away);
         set(nx, ny, nz, surfel.normal);
         set(lx, ly, lz, surfel.normal + surfel.away);
+        highest[count] = surfel.highest;
         ++count;
     }
     Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -57,6 +59,8 @@ struct SurfelBatch {
     bool touches(std::size_t i) const { return lx[i] != nx[i] || ly[i] != ny[i] || lz[i] != nz[i]; }
     /// Where rays start, see Surfel::origin().
     Vec3 origin(std::size_t i, float height) const { return position(i) + height * Vec3(lx[i], ly[i], lz[i]); }
+    /// Where rays on triangles start, see Surfel::ray_origin().
+    Vec3 ray_origin(std::size_t i, float height) const { return origin(i, std::min(height, highest[i])); }
 
   private:
     void set(Values& to_x, Values& to_y, Values& to_z, const Vec3& v) {

@@ -65,11 +65,18 @@ class ContactSearch {
                 others_.push_back(t);
         if (others_.empty())
             return;
-        sort_out_faces(surfel);
+        float offset = offset_;
+        sort_out_faces(surfel, offset);
         if (own_faces_.empty() || other_faces_.empty())
             return;
-        const Contact contact = contact_of(surfel.normal, own_faces_, other_faces_, double(offset_),
-                                           [&] { return between_solids(surfel); });
+        if (const float limit = limit_of(own_faces_); limit < offset) {
+            offset = surfel.highest = limit;
+            sort_out_faces(surfel, offset);
+            if (own_faces_.empty() || other_faces_.empty())
+                return;
+        }
+        const Contact contact = contact_of(surfel.normal, own_faces_, other_faces_, double(offset),
+                                           [&] { return between_solids(surfel, offset); });
         surfel.away = contact.away;
         surfel.covered = contact.covered;
     }
@@ -82,8 +89,20 @@ class ContactSearch {
         return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z && p.z <= high.z;
     }
 
-    /// Finds the surfel's own faces, and the others that it touches.
-    void sort_out_faces(const Surfel& surfel) {
+    /// A tenth of the height of the largest of the surfel's own faces, but no less than rounding allows.
+    static float limit_of(std::span<const NearFace> own) {
+        constexpr double share = 0.1;
+        double height = 0.0;
+        for (const NearFace& face : own) {
+            const auto& [a, b, c] = face.corners;
+            const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+            height = std::max(height, glm::length(glm::cross(b - a, c - a)) / longest);
+        }
+        return std::max(static_cast<float>(share * height), ray_offset(0.0f));
+    }
+
+    /// Finds the surfel's own faces, and the others within `offset` of it.
+    void sort_out_faces(const Surfel& surfel, float offset) {
         own_faces_.clear();
         other_faces_.clear();
         std::sort(others_.begin(), others_.end()); // the tree returns them in any order
@@ -95,7 +114,7 @@ class ContactSearch {
                 continue;
             const NearFace& face = other_faces_.back();
             const auto& c = face.corners;
-            if (glm::length(closest_on_triangle(c[0], c[1], c[2], Vec3d(0.0)).offset) > double(offset_)) {
+            if (glm::length(closest_on_triangle(c[0], c[1], c[2], Vec3d(0.0)).offset) > double(offset)) {
                 other_faces_.pop_back();
             } else if (by_normal && 2.0 * glm::dot(face.normal, Vec3d(surfel.normal)) > 1.0) {
                 own_faces_.push_back(face);
@@ -118,12 +137,12 @@ class ContactSearch {
         return true;
     }
 
-    bool between_solids(const Surfel& surfel) const {
+    bool between_solids(const Surfel& surfel, float offset) const {
         // The ray is tilted off the normal, so that it does not run along edges.
         const Vec3 up = glm::normalize(surfel.normal + Vec3(0.0123f, 0.0311f, 0.0217f));
-        const float start = 2.0f * offset_;
-        return is_inside(surface_, surfel.position + start * up, up, offset_) &&
-               is_inside(surface_, surfel.position - start * up, -up, offset_);
+        const float start = 2.0f * offset;
+        return is_inside(surface_, surfel.position + start * up, up, offset) &&
+               is_inside(surface_, surfel.position - start * up, -up, offset);
     }
 
     const RaySurface& surface_;

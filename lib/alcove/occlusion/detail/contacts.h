@@ -16,7 +16,8 @@ inline bool uses_vertex(std::size_t vertex, const Triangle& t) {
     return t[0] == vertex || t[1] == vertex || t[2] == vertex;
 }
 
-/// Sets `away` and `covered` of all surfels that have a normal and lie within `offset` of a face that is not their own.
+/// Sets `away`, `covered` and `highest` of all surfels that have a normal and lie within `offset` of a face that is not
+/// their own. A surfel whose own faces are small touches only faces within a tenth of their size.
 /// If `is_own` is absent or names no face of a surfel, its own faces are the touching faces whose normals are within 60
 /// degrees of the normal of the surfel. The result depends neither on the number of threads nor on the order of the
 /// surfels. Cost: 0.2 µs per surfel if few touch a face, otherwise up to 0.8 µs.

@@ -109,7 +109,7 @@ void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::si
         if (surfels_[i].covered)
             continue;
         const Basis basis(surfels_[i].normal);
-        const Vec3 origin = surfels_[i].origin(ray_offset(guided_.radius));
+        const Vec3 origin = surfels_[i].ray_origin(ray_offset(guided_.radius));
         const CosineLattice::Shift shift(recurrence_point(i, guided_.seed));
         for (int r = 0; r < guided_.rays; ++r) {
             owner[batch.count] = static_cast<std::uint32_t>(i);

@@ -6,7 +6,8 @@
 namespace alcove {
 
 bool is_same(const Surfel& a, const Surfel& b) {
-    return a.position == b.position && a.normal == b.normal && a.away == b.away && a.covered == b.covered;
+    return a.position == b.position && a.normal == b.normal && a.away == b.away && a.covered == b.covered &&
+           a.highest == b.highest;
 }
 
 float median_spacing(std::span<const Surfel> curve, std::size_t i) {

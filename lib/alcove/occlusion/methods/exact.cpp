@@ -26,7 +26,7 @@ void Exact::operator()(const RaySurface& surface, const SurfelBatch& surfels, co
     for (std::size_t i = 0; i < surfels.count; ++i) {
         check_cancelled(); // a surfel may have a million rays
         const Basis basis(surfels.normal(i));
-        const Vec3 origin = surfels.origin(i, ray_offset(radius));
+        const Vec3 origin = surfels.ray_origin(i, ray_offset(radius));
         const CosineLattice::Shift shift(hash(surfels.position(i), seed));
         for (int r = 0; r < rays; ++r) {
             owner[batch.count] = static_cast<std::uint8_t>(i);
