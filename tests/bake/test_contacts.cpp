@@ -326,6 +326,36 @@ TEST(MeasuredRmse, CountsTheHeightAtWhichRaysStart) {
     EXPECT_GT(*far.rmse, 0.7 * rmse_between(far.ao(), alone.ao()));
 }
 
+// The usual height at which rays start is larger than the box. Its lower vertices see only what is above the floor, its
+// upper vertices all but that.
+TEST(Contacts, TinyPartsInLargeScenes) {
+    Mesh mesh = moved(box_mesh({0.5, 0.5, 0.5}, 1), {0, 0.5, 0});
+    const std::size_t vertices = mesh.vertex_count();
+    add_part(mesh, floor_mesh(5000.0, 1), 1.0, {0, 0, 0});
+    const double above = 0.5 * (1.0 - 1.0 / std::sqrt(3.0));
+    for (const Way& run : runs()) {
+        if (run.name == "traced" || run.name == "calibrated")
+            continue; // the voxel is larger than the box
+        BakeOptions options = run.options;
+        options.radius = "1100";
+        const Baked baked = bake(mesh, options);
+        for (std::size_t v = 0; v < vertices; ++v)
+            EXPECT_NEAR(baked.ao()[v], lower(mesh.positions[v]) ? above : 1.0 - above, run.tolerance)
+                << run.name << ", vertex " << v;
+    }
+}
+
+// With 32 rays, the ao of a vertex would be off by up to 0.1 with some seeds.
+TEST(Contacts, FewVerticesGetManyRays) {
+    const Mesh room = turned_inside_out(box_mesh({1, 1, 1}, 1));
+    for (const char* method : {"", "guided", "traced"})
+        for (const std::uint32_t seed : {0u, 1u, 2u, 3u}) {
+            const Baked baked = bake(room, {.radius = "0.5", .method = method, .seed = seed});
+            for (const float ao : baked.ao())
+                EXPECT_NEAR(ao, std::sqrt(3.0) / 4.0, 0.02) << baked.method << ", seed " << seed;
+        }
+}
+
 TEST(Contacts, SmallRadiiInLargeScenes) {
     Mesh part = floor_mesh(1.0, 16);
     const auto wall_begin = part.vertex_count();

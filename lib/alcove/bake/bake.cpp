@@ -91,7 +91,7 @@ void take_grid(PreparedMesh& prepared, const BakeOptions& options, std::vector<s
     prepared.grid = extend_levels(std::move(stack), prepared.radius, inside);
 }
 
-/// Whether any triangle has an area in unit space, which grids and rays work in.
+/// Whether any triangle has a nonzero area in unit space, the space of grids and rays.
 bool has_area(const PreparedMesh& prepared) {
     const auto unit = [&](std::uint32_t v) {
         return (prepared.mesh().positions[v] - prepared.frame.center) / prepared.frame.diagonal;
@@ -192,7 +192,7 @@ Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& pr
     baked.evaluated = result.evaluated;
     baked.reason = std::move(result.reason);
     baked.rmse = result.rmse;
-    baked.target = task.error;
+    baked.target = task.target_error;
     baked.radius = double(prepared.radius) * prepared.frame.diagonal;
     baked.grid_summary = result.grid;
     baked.grid = std::move(result.stack);
@@ -210,12 +210,15 @@ struct SurfelSource {
     std::function<std::vector<Surfel>(const PreparedMesh&)> surfels;
     IsOwnFace is_own_face;
     std::function<std::vector<Surfel>(const PreparedMesh&, std::span<const float> ao)> more{}; ///< see BakeTarget
+    double error_share = 1.0;                                                                  ///< see SurfacePoints
 };
 
 Baked bake_surfels(const Mesh& mesh, const BakeOptions& options, const SurfelSource& source) {
     const ThreadLimit limit(options.threads);
     check(options);
     BakeTask task = task_of(options);
+    if (task.error)
+        *task.error *= source.error_share;
     Stopwatch watch;
     std::vector<std::string> warnings;
     try {
@@ -323,7 +326,8 @@ Baked bake_on_surface(const Mesh& mesh, const SurfacePoints& points, const BakeO
                          .is_reconstructed = is_reconstructed,
                          .surfels = surfels,
                          .is_own_face = is_own_face,
-                         .more = points.more ? more : decltype(SurfelSource::more)()});
+                         .more = points.more ? more : decltype(SurfelSource::more)(),
+                         .error_share = points.error_share});
 }
 
 /// Bakes the points of a mesh without faces on the surface that is reconstructed from them.
@@ -361,8 +365,8 @@ bool has_colors(const Mesh& mesh) {
            has_property(mesh, "blue") || has_property(mesh, "alpha");
 }
 
-/// Whether to add ao as colours and `quality`: by default, only if the mesh has neither. An .obj can store ao only as
-/// colours, so the colours of an earlier bake are replaced.
+/// Whether to add ao as colours and `quality`: by default, only if the mesh has neither. In an .obj, ao also replaces
+/// colours if a comment in the file shows that an earlier bake wrote them.
 bool wants_colors(ColorUse use, const Baked& baked, const Mesh& mesh) {
     if (!baked.attributes.has(Channel::ao) || use != ColorUse::automatic)
         return baked.attributes.has(Channel::ao) && use != ColorUse::none;

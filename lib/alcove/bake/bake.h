@@ -61,10 +61,9 @@ struct BakeOptions {
     /// The RMSE to meet, in [0.001, 1), instead of that of `quality`.
     std::optional<double> error{};
     /// A method of the catalog; if empty, the planner chooses one. Without `error`, the method runs with its defaults
-    /// and `parameters`; with `error`, its number of rays or samples is chosen to meet it. By default, guided casts
-    /// more rays in two cases. On meshes with few vertices, where a vertex has few neighbours to share rays with, it
-    /// casts up to 64. If the voxel is larger than half the radius, it casts at least 32, because the field does not
-    /// help then.
+    /// and `parameters`; with `error`, its number of rays or samples is chosen to meet it. On meshes with few
+    /// vertices, guided, traced and the methods that the planner chooses cast more rays, up to 4,096 per vertex. If the
+    /// voxel is larger than half the radius, guided casts at least 32, because the field does not help then.
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};

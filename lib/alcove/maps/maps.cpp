@@ -241,6 +241,8 @@ class MapBake {
             SurfacePoints points = projection_ ? points_of(projected) : points_of_samples();
             if (sparse_error_ > 0.0f)
                 points.more = [&](std::span<const float> ao) { return interpolate(ao, between); };
+            // The pilot sees neither the errors of interpolated texels nor all texels of small islands.
+            points.error_share = 0.93;
             Baked baked;
             if (!bake_.attributes.empty())
                 baked = bake_points(surface(), points, bake_);

@@ -73,7 +73,7 @@ std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const 
     if (cause.empty() && task.error) // the caller reports that the error is missed
         return warnings;
     if (cause.empty())
-        cause = method.samples_are == SampleKind::rays
+        cause = method.samples_are == SampleKind::rays && method.needs_mesh
                     ? "use more --rays, or leave out --method to let the planner choose"
                     : "leave out --method to let the planner choose";
     warnings.push_back(measured + cause);

@@ -80,7 +80,7 @@ BakeTask task_of(const BakeOptions& options) {
     task.deadline = Deadline(options.time_limit);
     const bool fixed = is_fixed(options);
     if (!fixed)
-        task.error = options.error.value_or(rmse_of(options.quality));
+        task.error = task.target_error = options.error.value_or(rmse_of(options.quality));
     if (fixed || !options.method.empty()) {
         const std::vector<const Method*> needed = methods_for(named_method(options), options.attributes);
         task.method = needed.empty() ? &named_method(options) : needed.front();

@@ -1,5 +1,6 @@
 #include "alcove/bake/detail/parts.h"
 
+#include "alcove/base/detail/stopwatch.h"
 #include "alcove/mesh/detail/parts.h"
 #include "alcove/mesh/triangulate.h"
 
@@ -27,6 +28,29 @@ bool has_area(const BakeTarget& target) {
     const std::vector<Vec3> normals = angle_weighted_normals(target.mesh, target.triangles);
     return std::any_of(normals.begin(), normals.end(), [](const Vec3& n) { return n != Vec3(0.0f); });
 }
+
+/// Refuses the rest of the parts if it would clearly exceed the deadline, judged by those that are finished. Both the
+/// number of parts and that of surfels count, as the grid of a small part takes as long as that of a large one.
+class TimeOfParts {
+  public:
+    TimeOfParts(const BakeTask& task, std::size_t parts, std::size_t surfels)
+        : task_(task), parts_(static_cast<double>(parts)), surfels_(static_cast<double>(surfels)) {}
+
+    void finish_part(std::size_t surfels) {
+        finished_parts_ += 1.0;
+        finished_surfels_ += static_cast<double>(surfels);
+        spent_ += watch_.lap();
+        const double in_all = std::min(parts_ / finished_parts_, surfels_ / finished_surfels_);
+        task_.deadline.check(spent_ * (in_all - 1.0), [&](double) -> std::string {
+            return task_.method ? "a faster method than " + std::string(task_.method->name) : "";
+        });
+    }
+
+  private:
+    const BakeTask& task_;
+    double parts_, surfels_, finished_parts_ = 0.0, finished_surfels_ = 0.0, spent_ = 0.0;
+    Stopwatch watch_;
+};
 
 /// Combines the results of the parts.
 class WholeResult {
@@ -112,6 +136,7 @@ TargetResult bake_parts(const BakeTarget& whole, const BakeTask& task, NormalSou
     WholeResult result(whole, task);
     const std::vector<MeshPart> parts = split_parts(whole.mesh);
     const auto all = static_cast<double>(whole.surfels.size());
+    TimeOfParts time(task, parts.size(), whole.surfels.size());
     std::size_t finished = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
         const Mesh& mesh = parts[p].mesh;
@@ -137,6 +162,7 @@ TargetResult bake_parts(const BakeTarget& whole, const BakeTask& task, NormalSou
         result.add(bake_target(target, task, surroundings, of_whole), parts[p].vertices, frame,
                    fmt::format("part {} of {}", p + 1, parts.size()));
         finished += parts[p].vertices.size();
+        time.finish_part(parts[p].vertices.size());
     }
     return result.finish();
 }

@@ -44,7 +44,7 @@ PilotOptions pilot_for(double error) {
 }
 
 PilotOptions pilot_beside(int rays) {
-    return pilot_of(0.5 * rays); // as noisy as the bake, which is still enough to measure their difference
+    return pilot_of(0.5 * rays); // as noisy as the bake, but still accurate enough to measure how far the two differ
 }
 
 Pilot::Pilot(std::span<const Surfel> surfels, const RaySurface& surface, float radius, const PilotOptions& options)

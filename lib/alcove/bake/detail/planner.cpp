@@ -86,6 +86,7 @@ Planner::Planner(const PlanRequest& request, const Pilot& pilot)
 }
 
 void Planner::add_exact(const PlanRequest& request, int rays) {
+    rays = std::max(rays, request.min_rays);
     const double tree = tree_seconds(request);
     const double seconds = tree + static_cast<double>(request.surfels) * rays * ray_seconds(request);
     fallback_.push_back({{choose(find_method("exact"), rays), 0.0f, error_, seconds}, 0.0, tree, false});
@@ -95,6 +96,8 @@ void Planner::add_exact(const PlanRequest& request, int rays) {
 /// a wanted channel.
 void Planner::add(const PlanRequest& request, Plan plan, double seconds_per_surfel, bool is_bound) {
     const Method& method = *plan.choice.method;
+    if (method.samples_are == SampleKind::rays)
+        plan.choice = choose(method, std::max(plan.choice.rays(), request.min_rays));
     const float voxel = chosen_voxel(request.radius, plan.largest_voxel);
     const bool is_possible = request.has_grid ? plan.largest_voxel == GridOptions{}.largest_voxel
                                               : voxel >= request.finest_voxel && !is_too_coarse(request);

@@ -17,6 +17,7 @@ struct PlanRequest {
     const Method* method = nullptr; ///< the only method to plan with: exact, guided or calibrated; null: any
     std::uint32_t seed = 0;
     int exact_rays = 0; ///< from Pilot::rays_for() for this error and seed; 0: not known yet
+    int min_rays = 0;   ///< per surfel
     std::size_t surfels = 0;
     std::size_t contacts = 0; ///< surfels that touch other faces
     std::size_t triangles = 0;

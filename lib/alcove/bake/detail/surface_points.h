@@ -18,6 +18,7 @@ struct SurfacePoints {
     /// If set, it is called with the ao of all points and returns further points, which are baked with the same
     /// settings. Only for a bake with an error to meet.
     std::function<std::vector<SurfacePoint>(std::span<const float> ao)> more{};
+    double error_share = 1.0; ///< of the error to meet, the share to plan for
 };
 
 /// Like bake(), for `points` and then those that `more` returns. Baked::evaluated does not count those of `more`.

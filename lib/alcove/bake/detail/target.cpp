@@ -10,6 +10,7 @@
 #include "alcove/grid/detail/plan.h"
 #include "alcove/occlusion/detail/interpolated.h"
 #include "alcove/occlusion/detail/subset.h"
+#include "alcove/occlusion/methods/traced.h"
 
 #include <fmt/format.h>
 
@@ -49,10 +50,10 @@ class TargetBake {
             warn_of_errors();
             result_.rmse = std::min(std::hypot(*result_.rmse, error_of_offset()), 1.0);
         }
-        if (result_.rmse && task_.error && *result_.rmse > *task_.error)
+        if (result_.rmse && task_.error && *result_.rmse > *task_.target_error)
             result_.warnings.push_back(
                 fmt::format("{} reaches only an RMSE of {:.2g} on this mesh, not {:g}: allow a larger --error{}",
-                            result_.choice.label(), *result_.rmse, *task_.error,
+                            result_.choice.label(), *result_.rmse, *task_.target_error,
                             task_.method ? ", or leave out --method to let the planner choose" : ""));
         if (target_.more)
             bake_more();
@@ -230,7 +231,8 @@ class TargetBake {
         return occluders.field().resolution() <= 0.5f * target_.radius;
     }
 
-    /// The number of rays for a surfel that has few others to share rays with, or where the field does not help.
+    /// The number of rays of guided for a surfel that has few others to share rays with, or where the field does not
+    /// help.
     int rays_for_few_or_unresolved() {
         constexpr std::size_t shared = 1 << 17; // total of all surfels, which takes some hundredths of a second
         constexpr std::size_t most = 64;
@@ -246,8 +248,12 @@ class TargetBake {
         const bool chose_rays =
             std::any_of(settings.parameters.begin(), settings.parameters.end(),
                         [](const auto& parameter) { return parameter.first == parameter_of(SampleKind::rays); });
-        if (choice.method->needs_grid && choice.method->needs_mesh && !chose_rays) {
-            choice = choose(*choice.method, std::max(choice.samples, rays_for_few_or_unresolved()));
+        const bool is_guided = choice.method->needs_grid && choice.method->needs_mesh;
+        if (!chose_rays && (is_guided || choice.method->name == Traced::name)) {
+            int rays = std::max(choice.samples, surfels_.cheap_rays());
+            if (is_guided)
+                rays = std::max(rays, rays_for_few_or_unresolved());
+            choice = choose(*choice.method, rays);
             settings.parameters.emplace_back(parameter_of(SampleKind::rays), choice.samples);
         }
         if (has_pilot())
@@ -292,6 +298,7 @@ class TargetBake {
             .method = task_.method,
             .seed = task_.seed,
             .exact_rays = pilot.rays_for(*task_.error, task_.seed),
+            .min_rays = surfels_.cheap_rays(),
             .surfels = target_.surfels.size(),
             .contacts = surfels_.contacts(),
             .triangles = target_.triangles.size(),

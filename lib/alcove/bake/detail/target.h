@@ -12,9 +12,10 @@ namespace alcove {
 
 /// Settings that all targets of a bake share.
 struct BakeTask {
-    const Method* method = nullptr; ///< null: the planner chooses
-    Settings settings{};            ///< of `method`; the radius is the target's
-    std::optional<double> error{};  ///< RMSE to meet; empty: fixed settings
+    const Method* method = nullptr;       ///< null: the planner chooses
+    Settings settings{};                  ///< of `method`; the radius is the target's
+    std::optional<double> target_error{}; ///< RMSE to meet; empty: fixed settings
+    std::optional<double> error{};        ///< RMSE to plan for, at most target_error
     ChannelSet attributes = Channel::ao;
     Via via = Via::grid;
     std::uint32_t seed = 0;

@@ -35,6 +35,11 @@ void TargetSurfels::find_contacts(std::span<const std::uint32_t> indices, std::s
         [&](std::size_t i, const Triangle& triangle) { return target_.is_own_face(indices[i], triangle); });
 }
 
+int TargetSurfels::cheap_rays() const {
+    constexpr std::size_t of_all = 1 << 15, most = 4096; // take some thousandths of a second
+    return static_cast<int>(std::min(of_all / std::max<std::size_t>(target_.surfels.size(), 1), most));
+}
+
 const std::vector<std::uint32_t>& TargetSurfels::order() {
     if (order_.empty())
         order_ = spatial_order(target_.surfels);
@@ -58,11 +63,9 @@ const Pilot& TargetSurfels::pilot(const PilotOptions& options) {
         Stopwatch watch;
         PilotOptions share = options;
         share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
-        // The noise of few surfels does not cancel out, but they can have many rays in little time.
-        constexpr std::size_t shared_rays = 1 << 17, most_rays = 4096;
-        const std::size_t per_surfel =
-            std::min(shared_rays / std::max<std::size_t>(target_.surfels.size(), 1), most_rays);
-        share.rays = std::max(share.rays, static_cast<int>(per_surfel / 2 * 2));
+        // The noise of few surfels does not cancel out. The reference must have less of it than the bake.
+        constexpr int per_ray_of_bake = 4;
+        share.rays = std::max(share.rays, per_ray_of_bake * cheap_rays());
         if (!has_all_contacts_)
             find_contacts_of_sample(evenly(order(), share.surfels));
         pilot_.emplace(target_.surfels, order(), rays, target_.radius, share);

@@ -27,6 +27,9 @@ class TargetSurfels {
     /// False if no surfel touches other faces.
     bool may_touch() const { return !has_all_contacts_ || contacts_ > 0; }
 
+    /// The number of rays per surfel whose cost does not matter; large if there are few surfels.
+    int cheap_rays() const;
+
     /// See spatial_order().
     const std::vector<std::uint32_t>& order();
     /// `count` runs of `length` surfels along the Morton curve, evenly spread.
