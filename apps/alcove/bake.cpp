@@ -56,7 +56,7 @@ void add_files(CLI::App& app, BakeVerb& verb) {
         ->required();
     app.add_option("-o,--output", verb.output,
                    "Mesh to write (ply, obj, glb, gltf), texture map (png, exr), or a folder that gets one mesh per "
-                   "input. With <UDIM> in the name of a map, each tile gets a file")
+                   "input. If the name of a map contains <UDIM>, one file is written per tile")
         ->required();
 }
 

@@ -95,7 +95,7 @@ bool is_map(const std::string& output) {
 void add_map_options(CLI::App& verb, MapRequest& request) {
     add_choice<bool>(verb, "--into", request.into_texture, {{"vertices", false}, {"texture", true}},
                      "Where to store the values in a glb or gltf. vertices: at its vertices; texture: in one occlusion "
-                     "texture per material, using a UV set of the file that has no overlaps")
+                     "texture per material, using one of the UV sets of the file, one without overlaps")
         ->type_name("WHERE")
         ->default_str("vertices");
     verb.add_flag(
@@ -147,7 +147,7 @@ void add_map_options(CLI::App& verb, MapRequest& request) {
             "High-poly mesh or level set whose surface is baked into the UVs of the input; repeat the option for "
             "more")
         ->option_text("MESH");
-    verb.add_option("--uv-set", request.map.uv_set, "Set of UVs of a glTF file, counted from 0")
+    verb.add_option("--uv-set", request.map.uv_set, "Index of the UV set of a glTF file, counted from 0")
         ->check(CLI::Range(0, 255).description(""))
         ->type_name("N")
         ->capture_default_str();

@@ -140,11 +140,12 @@ void run(const MeasureOptions& options) {
 }
 
 void add_measure(CLI::App& program) {
-    auto* verb = program.add_subcommand("measure", "Measure the error, time and memory of estimators on meshes");
+    auto* verb = program.add_subcommand("measure", "Measure the error, time and memory of methods on meshes");
     auto options = std::make_shared<MeasureOptions>();
-    verb->add_option("input", options->inputs,
-                     "Meshes to measure on (ply, obj, off, stl, glb, gltf), or level sets (vdb), whose zero isosurface "
-                     "is meshed first")
+    verb->add_option(
+            "input", options->inputs,
+            "Meshes to run the methods on (ply, obj, off, stl, glb, gltf), or level sets (vdb), whose zero isosurface "
+            "is meshed first")
         ->required();
     verb->add_option("--radius", options->radius,
                      "Maximum distances of occluders, separated by commas: 0.2 (scene units), 10%, or inf")

@@ -86,10 +86,10 @@ void run(const CommonOptions& options) {
 }
 
 void add_methods(CLI::App& program) {
-    auto* verb = program.add_subcommand("methods", "List every estimator: formula, source, cost, parameters");
+    auto* verb = program.add_subcommand("methods", "List every method: formula, source, cost, parameters");
     auto options = std::make_shared<CommonOptions>();
     add_common_options(*verb, *options);
-    verb->footer("--radius sets the radius; --set sets any other parameter by name:\n"
+    verb->footer("In bake and render, --radius sets the radius, and --set sets any other parameter by name:\n"
                  "  alcove bake scan.ply -o scan_ao.ply --method hemisphere --set surfel_frame=true\n");
     verb->callback([options] { run(*options); });
 }

@@ -81,7 +81,7 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
                     "Scene (toml), mesh (ply, obj, off, stl, glb, gltf) or level set (vdb) to draw")
         ->required();
     verb.add_option("--size", request.size, "Image size in pixels")->type_name("WxH")->default_str("1280x720");
-    verb.add_option("--pixel-samples", request.pixel_samples, "Rays per pixel")
+    verb.add_option("--pixel-samples", request.pixel_samples, "Samples (camera rays) per pixel")
         ->type_name("N")
         ->check(CLI::Range(1, 1024))
         ->default_str("4");
@@ -96,16 +96,15 @@ void add_scene_options(CLI::App& verb, SceneRequest& request) {
         {{"draft", Quality::draft}, {"good", Quality::good}, {"fine", Quality::fine}},
         "Quality of the default method (guided): draft, good or fine. Sets the number of rays");
     quality->type_name("NAME")->default_str("good");
-    add_method_options(
-        verb, request.method,
-        "Method to use: none (no ao), march_steps or screen_space (only in images), or one of the estimators: ");
+    add_method_options(verb, request.method,
+                       "Method to use: none (no ao), march_steps or screen_space (not available in bake), or one of: ");
     verb.get_option("--method")->excludes(quality);
     verb.get_option("--rays")->description(
-        "Rays per pixel sample, for methods that trace rays (default for traced and exact: 16)");
+        "Occlusion rays per pixel sample, for methods that trace rays (default for traced and exact: 16)");
     add_triple(verb, "--eye", request.eye, Triple::point,
                "Position of the camera; default: chosen so that everything is in view");
     add_triple(verb, "--look-at", request.look_at, Triple::point,
-               "Point that the camera looks at; default: the centre");
+               "Point that the camera looks at; default: the centre of the scene");
     add_triple(verb, "--up", request.up, Triple::direction, "Up direction")->default_str("0,1,0");
     verb.add_option("--fov", request.fov, "Horizontal field of view in degrees")->type_name("DEG")->default_str("40");
     verb.add_flag("--no-ground", request.no_ground, "Leave out the plane through the lowest point");

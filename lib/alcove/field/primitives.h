@@ -70,7 +70,7 @@ struct Capsule {
 /// Number of points that batched combinations process at a time: small enough that their copies stay in the L1 cache.
 inline constexpr std::size_t combine_block = 256;
 
-/// Base class of unions; `Self` visits its parts by `for_each_part(visit)`.
+/// Base class of unions; `Self` provides `for_each_part(visit)`, which visits its parts.
 ///
 /// If no part is two-sided, the result is the smallest distance. Otherwise it is the distance nearest to 0, where the
 /// inside of the solid parts counts as 0. The reasons: the sign of a sheet says nothing about other parts, the depth

@@ -109,7 +109,7 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
                                      grid->getName()));
         level.voxel = voxel;
         if (!stack.lattice)
-            level.origin = rounded_to_floats(level.origin); // as it was before it was written
+            level.origin = rounded_to_floats(level.origin); // exactly as before it was written
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))

@@ -31,8 +31,9 @@ struct PointCloud {
 /// vary least (Hoppe et al. 1992), oriented to agree with neighbours that have a normal, or else outward at the point
 /// that is furthest along z.
 ///
-/// Outliers are points that are off the tangent planes of distant neighbours, or very far from any neighbour. Cost:
-/// about 3 µs per point, 5 µs with normals to estimate. \throw InputError for fewer than three different points.
+/// A point is an outlier if it is far from its nearest neighbours and off their tangent planes (or they are off its
+/// own), or if it is very far from all of them. Cost: about 3 µs per point, 5 µs if normals must be estimated. \throw
+/// InputError for fewer than three distinct points.
 PointCloud clean_points(std::span<const Vec3d> positions, std::span<const Vec3> normals, const Frame& frame);
 
 /// The box of all points, but limited to an enlarged box of the inner points. The inner points are those without the

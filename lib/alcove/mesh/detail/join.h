@@ -6,7 +6,7 @@
 namespace alcove {
 
 struct JoinedMesh {
-    Mesh mesh;                            ///< has the same faces, but no `source` and `attributes`
+    Mesh mesh;                            ///< has the same faces, but no `source` or `attributes`
     std::vector<std::uint32_t> vertex_of; ///< for each vertex of the original, its vertex in `mesh`
 };
 

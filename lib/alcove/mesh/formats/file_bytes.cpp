@@ -14,7 +14,7 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t smallest_capacity = std::size_t{1} << 16; // of a pipe
+constexpr std::size_t smallest_capacity = std::size_t{1} << 16; // of the buffer for a pipe
 constexpr std::size_t large_file = std::size_t{1} << 20;
 
 struct Free {

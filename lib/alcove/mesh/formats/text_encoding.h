@@ -1,4 +1,4 @@
-/// What surrounds the characters of a text file: marks of its encoding, and padding after its end.
+/// What surrounds the text in a text file: a byte-order mark at the start, and padding at the end.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"

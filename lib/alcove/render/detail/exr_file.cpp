@@ -78,7 +78,7 @@ void write_exr_file(int width, int height, std::span<const ExrChannel> channels,
         buffer.insert(name, Imf::Slice(type, base, stride, stride * columns));
     };
     std::deque<std::vector<Imath::half>> halves; // a deque keeps their addresses stable
-    const ExrChannel* converted = nullptr;       // channels of the same values share them
+    const ExrChannel* converted = nullptr;       // channels with the same values share one conversion
     for (const ExrChannel& channel : channels)
         if (channel.precision == Precision::single) {
             insert(channel.name, Imf::FLOAT, channel.values, channel.step * sizeof(float));

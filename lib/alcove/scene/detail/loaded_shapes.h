@@ -31,9 +31,10 @@ struct LoadedShape {
     std::vector<std::string> warnings{};      ///< the warnings of a file are only at the first shape that uses it
 };
 
-/// Loads the shapes of all objects. Keeps pointers to the objects. Adds the files to `memory`. \throw everything that
-/// read_mesh() and read_grids() throw. InputError also for a plane in a union, or as the first part of a difference.
-/// These messages name the object or its file. LimitError if the files exceed the limit.
+/// Loads the shapes of all objects. Keeps pointers to the objects. Adds the memory that the files need to the estimate
+/// `memory`. \throw everything that read_mesh() and read_grids() throw. InputError also for a plane in a union, or as
+/// the first part of a difference. These messages name the object or its file. LimitError if the files exceed the
+/// limit.
 std::vector<LoadedShape> load_shapes(const Scene& scene, MemoryEstimate& memory);
 
 /// Calls `visit(loaded)` for every shape and, recursively, its parts.
