@@ -119,7 +119,7 @@ void add_diagnosis(Facts& facts, const Diagnosis& d, const Mesh& mesh) {
 }
 
 /// Adds the sign that a bake would choose.
-void add_sign(Facts& facts, const Mesh& mesh) {
+void add_sign(Facts& facts, const Mesh& mesh, bool is_closed) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     if (mesh.face_count() == 0)
         return facts.add("sign", nullptr, "none: the file contains points, and a bake reconstructs their surface");
@@ -128,7 +128,9 @@ void add_sign(Facts& facts, const Mesh& mesh) {
     try {
         const bool solid = sign_of(mesh, triangles) == Sign::solid;
         facts.add("sign", solid ? "solid" : "sheet",
-                  solid ? "a solid" : "a sheet: both sides of the faces count as outside, and there is no inside");
+                  solid       ? "a solid"
+                  : is_closed ? "a sheet, although it is closed: it crosses itself, or parts of it lie inside others"
+                              : "a sheet: both sides of the faces count as outside, and there is no inside");
     } catch (const LimitError&) {
         facts.add("sign", nullptr, "unknown: no grid fits in memory");
     }
@@ -153,7 +155,7 @@ Facts facts_of_mesh(const Mesh& mesh) {
         add_obj(facts, *obj);
     if (mesh.face_count() > 0)
         add_diagnosis(facts, diagnosis, mesh);
-    add_sign(facts, mesh);
+    add_sign(facts, mesh, diagnosis.closed());
     facts.add("warnings", mesh.warnings, mesh.warnings);
     return facts;
 }

@@ -262,9 +262,9 @@ std::vector<std::string> describe(const Diagnosis& d) {
     if (d.components == 0)
         lines.push_back("no face spans a surface");
     else if (d.closed())
-        lines.push_back(d.components == 1
-                            ? "closed: inside and outside are known"
-                            : fmt::format("closed in {} parts: inside and outside are known", grouped(d.components)));
+        lines.push_back(d.components == 1 ? "closed, with faces oriented consistently"
+                                          : fmt::format("closed in {} parts, each with faces oriented consistently",
+                                                        grouped(d.components)));
     else if (d.open_edges > 0)
         lines.push_back(fmt::format("not closed, {} around {}: distances cannot distinguish inside from outside; fill "
                                     "the holes for signed distances",
