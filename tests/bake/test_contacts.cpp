@@ -148,13 +148,10 @@ TEST(Contacts, EdgesAndCornersOfARoom) {
 // direction.
 TEST(Contacts, EdgesAndCornersOfAWeldedRoom) {
     const Mesh room = turned_inside_out(box_mesh({1, 1, 1}, 8));
-    const Baked baked = bake(room, {.radius = "0.5", .method = "exact", .parameters = {{"rays", 1024}}});
-    for (std::size_t v = 0; v < room.vertex_count(); ++v)
-        for (const auto& [walls, ao] :
-             std::array{std::pair(1, 1.0), std::pair(2, std::sqrt(0.5)), std::pair(3, std::sqrt(3.0) / 4.0)})
-            if (at_walls(walls)(room.positions[v])) {
-                EXPECT_NEAR(baked.ao()[v], ao, 0.01) << walls;
-            }
+    expect_ao(room, "0.5",
+              {{"wall", 1.0, at_walls(1)},
+               {"edge", std::sqrt(0.5), at_walls(2)},
+               {"corner", std::sqrt(3.0) / 4.0, at_walls(3)}});
 }
 
 const auto upper = [](const Vec3d& p) { return is_near(p.y, 2.0); };
@@ -345,7 +342,7 @@ TEST(Contacts, TinyPartsInLargeScenes) {
     }
 }
 
-// With 32 rays, the ao of a vertex would be off by up to 0.1 with some seeds.
+// With 32 rays, the ao of a corner would be off by up to 0.1 with some seeds.
 TEST(Contacts, FewVerticesGetManyRays) {
     const Mesh room = turned_inside_out(box_mesh({1, 1, 1}, 1));
     for (const char* method : {"", "guided", "traced"})

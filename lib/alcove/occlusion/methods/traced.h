@@ -42,6 +42,34 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
     }
 }
 
+/// Turns misses into hits where a ray descends to the surface: it ends closer to the surface than `low[owner]`, and is
+/// closer than 1.5 times that halfway. In a crease, the rays of a lifted surfel pass over the walls that they would hit
+/// without the lift. Cost: two map() calls per miss with low[owner] > 0.
+template <Field F>
+void hit_walls_passed(const F& field, RayBatch& rays, float far, const std::uint8_t* owner, const float* low) {
+    RayBatch::Values x, y, z, middle, end;
+    std::array<std::uint16_t, RayBatch::capacity> missed;
+    std::size_t count = 0;
+    for (std::size_t r = 0; r < rays.count; ++r)
+        if (!rays.hit[r] && low[owner[r]] > 0.0f)
+            missed[count++] = static_cast<std::uint16_t>(r);
+    const auto map_at = [&](float way, RayBatch::Values& distances) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t r = missed[k];
+            x[k] = rays.x[r] + way * rays.dx[r];
+            y[k] = rays.y[r] + way * rays.dy[r];
+            z[k] = rays.z[r] + way * rays.dz[r];
+        }
+        map_batch(field, Points{x.data(), y.data(), z.data(), count}, any_reach, distances.data());
+    };
+    map_at(0.5f * far, middle);
+    map_at(far, end);
+    for (std::size_t k = 0; k < count; ++k) {
+        const float limit = low[owner[missed[k]]];
+        rays.hit[missed[k]] = std::fabs(end[k]) < limit && std::fabs(middle[k]) < 1.5f * limit;
+    }
+}
+
 /// The ray length after which a miss is certain or negligible; more steps would be wasted. Whatever an unbounded
 /// field has beyond the horizon is seen edge-on and covers less than 1/horizon of the hemisphere.
 template <Field F>
@@ -56,8 +84,8 @@ float longest_ray(const F& field, float radius) {
 ///
 /// V = 0 if the ray hits the surface within the radius, else 1. The bent normal is the normalised mean of the open
 /// directions, weighted by cos θ in both forms. Rays start where the distance is a tenth of a voxel, or the
-/// ray_offset() in analytic fields. Source: lecture notes (aolecture). Cost: 1 to 6 map() calls per surfel, plus 5–20
-/// per ray.
+/// ray_offset() in analytic fields; see also hit_walls_passed(). Source: lecture notes (aolecture). Cost: 1 to 6 map()
+/// calls per surfel, plus 5–20 per ray.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< per surfel, >= 1
@@ -95,6 +123,10 @@ struct Traced {
         options.two_sided = two_sided(field);
         SurfelBatch::Values heights;
         clear_of_surface(field, surfels, clearance, 2.0f * std::max(voxel, clearance), heights.data());
+        // Where a surfel was lifted, the walls of a crease are between half its height and its height away.
+        SurfelBatch::Values low;
+        for (std::size_t i = 0; i < surfels.count; ++i)
+            low[i] = heights[i] > clearance && std::isfinite(radius) ? 0.5f * heights[i] : 0.0f;
 
         SurfelBatch::Values open{};
         std::array<Vec3, SurfelBatch::capacity> mean{};
@@ -103,6 +135,7 @@ struct Traced {
         std::array<float, RayBatch::capacity> weight;
         const auto flush = [&] {
             trace(field, batch, options);
+            hit_walls_passed(field, batch, options.far, owner.data(), low.data());
             for (std::size_t r = 0; r < batch.count; ++r)
                 if (!batch.hit[r]) {
                     open[owner[r]] += weight[r];
