@@ -5,7 +5,6 @@ import shutil
 import subprocess
 import tempfile
 import threading
-import time
 
 import numpy as np
 
@@ -40,7 +39,7 @@ class Surface:
             np.concatenate([s.vertices for s in surfaces]),
             np.concatenate([s.corners + first for s, first in zip(surfaces, first_vertices)]),
             np.concatenate([s.offsets[:-1] + first for s, first in zip(surfaces, first_corners)] + [first_corners[-1:]]),
-            np.concatenate([s.normals for s in surfaces]),
+            None if surfaces[0].normals is None else np.concatenate([s.normals for s in surfaces]),
         )
 
     def faces_of_corners(self):
@@ -121,7 +120,7 @@ def run(program, arguments, cancelled):
             process.terminate()
             reader.join()
             raise Cancelled
-        time.sleep(0.05)
+        reader.join(0.05)
     out, err = output[0]
     if process.returncode != 0:
         raise Failed((err.strip().split("\n") or ["the program failed"])[-1])

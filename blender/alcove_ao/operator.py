@@ -7,8 +7,20 @@ import numpy as np
 from . import backend
 
 
-def surface_of(thing, depsgraph, needs_uvs=False):
-    """The mesh of an object with its modifiers, in world coordinates."""
+def corner_normals(mesh, to_world):
+    """The unit normals of all corners, in world coordinates."""
+    normals = np.empty(3 * len(mesh.loops), np.float32)
+    if hasattr(mesh, "calc_normals_split"):  # before Blender 4.1
+        mesh.calc_normals_split()
+        mesh.loops.foreach_get("normal", normals)
+    else:
+        mesh.corner_normals.foreach_get("vector", normals)
+    turned = normals.reshape(-1, 3) @ np.linalg.pinv(to_world[:3, :3])
+    return turned / np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
+
+
+def surface_of(thing, depsgraph, needs_normals=True, needs_uvs=False):
+    """The mesh of an object with its modifiers, in world coordinates. Normals take as long as all else."""
     evaluated = thing.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
@@ -20,17 +32,10 @@ def surface_of(thing, depsgraph, needs_uvs=False):
         mesh.loops.foreach_get("vertex_index", corners)
         starts = np.empty(len(mesh.polygons), np.int32)
         mesh.polygons.foreach_get("loop_start", starts)
-        normals = np.empty(3 * len(mesh.loops), np.float32)
-        if hasattr(mesh, "calc_normals_split"):  # before Blender 4.1
-            mesh.calc_normals_split()
-            mesh.loops.foreach_get("normal", normals)
-        else:
-            mesh.corner_normals.foreach_get("vector", normals)
         to_world = np.array(thing.matrix_world)
         places = vertices.reshape(-1, 3) @ to_world[:3, :3].T + to_world[:3, 3]
-        turned = normals.reshape(-1, 3) @ np.linalg.pinv(to_world[:3, :3])
         mirrored = np.linalg.det(to_world[:3, :3]) < 0.0
-        turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
+        normals = corner_normals(mesh, to_world) if needs_normals else None
         uvs = None
         if needs_uvs:
             layer = mesh.uv_layers.active
@@ -40,12 +45,13 @@ def surface_of(thing, depsgraph, needs_uvs=False):
             layer.data.foreach_get("uv", uvs)
             uvs = uvs.reshape(-1, 2)
         offsets = np.append(starts, len(corners))
-        surface = backend.Surface(places, corners, offsets, turned, uvs)
+        surface = backend.Surface(places, corners, offsets, normals, uvs)
         surface.order = None
-        if mirrored: # keeps the front outside
+        if mirrored:  # keeps the front outside
             order = np.concatenate([np.arange(a, b)[::-1] for a, b in zip(offsets[:-1], offsets[1:])])
             surface.order = order
-            surface.corners, surface.normals = surface.corners[order], surface.normals[order]
+            surface.corners = surface.corners[order]
+            surface.normals = None if normals is None else normals[order]
             surface.uvs = None if uvs is None else uvs[order]
         return surface
     finally:
@@ -132,7 +138,7 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
             self.image = active_image(active)
             self.size = tuple(self.image.size)
             self.surfaces = [surface_of(active, depsgraph, needs_uvs=True)]
-            self.others = [surface_of(thing, depsgraph) for thing in self.things if thing != active]
+            self.others = [surface_of(thing, depsgraph, needs_normals=False) for thing in self.things if thing != active]
         else:
             if len({thing.data for thing in self.things}) < len(self.things):
                 raise backend.Failed("selected objects share a mesh: make it single-user first (Object > Relations)")
@@ -141,7 +147,7 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
                 if layer is not None and layer.data_type not in {"FLOAT_COLOR", "BYTE_COLOR", "FLOAT"}:
                     raise backend.Failed("'%s' has an attribute '%s' of another kind: choose another name"
                                          % (thing.name, self.attribute_name))
-            self.surfaces = [surface_of(thing, depsgraph) for thing in self.things]
+            self.surfaces = [surface_of(thing, depsgraph, self.target == "CORNER") for thing in self.things]
             self.nearest = [nearest_vertices(thing, depsgraph) for thing in self.things]
 
     def set_progress(self, done):
