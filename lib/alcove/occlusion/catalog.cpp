@@ -100,7 +100,7 @@ auto owner_of(std::string_view parameter, std::span<const M* const> needed) {
                         [&](const M* method) { return find_parameter(*method, parameter).has_value(); });
 }
 
-/// The settings of `all` for `method`. A parameter goes to the first method of `needed` that has it.
+/// Those settings of `all` that apply to `method`. A parameter applies to the first method of `needed` that has it.
 Settings settings_of(const Method* method, std::span<const Method* const> needed, const Settings& all) {
     Settings own{.radius = all.radius, .max_probe_distance = all.max_probe_distance, .labels = all.labels};
     for (const auto& setting : all.parameters)

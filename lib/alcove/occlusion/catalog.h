@@ -14,7 +14,7 @@
 
 namespace alcove {
 
-/// A parameter of a method, without its type.
+/// A parameter of a method, without the type of its estimator.
 struct ParameterInfo {
     std::string_view name;
     double standard; ///< default value
@@ -24,15 +24,15 @@ struct ParameterInfo {
     std::string_view summary;
 };
 
-/// User settings: the radius, and parameters by name. If several methods run, a parameter goes to the first
-/// method that has it. If a name occurs twice, the later value wins.
+/// User settings: the radius, and parameters by name. If several methods run, a parameter applies to the first method
+/// that has it. If a name occurs twice, the later value wins.
 struct Settings {
     float radius = 0.1f; ///< units of the field; may be infinite
     std::vector<std::pair<std::string, double>> parameters{};
     /// Upper bound on the radius for methods that probe the field: farther than one diagonal from a mesh, probes carry
     /// no information.
     float max_probe_distance = 1.0f;
-    /// Reference ao at some surfels of the mesh, to which methods with a network fit that network. May be null.
+    /// Reference ao at some surfels of the mesh. Methods that contain a network fit the network to it. May be null.
     std::shared_ptr<const Labels> labels{};
 };
 
@@ -61,8 +61,8 @@ struct Method : MethodInfo {
     bool needs_mesh;        ///< traces the triangles
     bool unbounded_radius;  ///< the radius may be infinite
     float reference_radius; ///< radius that the constants of the formula assume; 0 if they assume none
-    /// Evaluates the surfels in `order`, their spatial_order(), which all methods of a bake share. Ignores settings
-    /// that the method does not have.
+    /// Evaluates the surfels in the sequence `order`, their spatial_order(), which all methods of a bake share. Ignores
+    /// parameters that the method does not have.
     ChannelValues (*bake)(std::span<const Surfel>, std::span<const std::uint32_t> order, const Occluders&,
                           const Settings&, ChannelSet wanted, const Progress&);
 };
@@ -71,7 +71,7 @@ struct Method : MethodInfo {
 std::span<const Method> catalog();
 
 /// Finds the method called `name` among those that give ao. \throw InputError for an unknown name; the message lists
-/// the known ones.
+/// these methods.
 const Method& find_method(std::string_view name);
 
 /// The methods to run for the wanted channels, each once: the chosen method for every channel it gives, and for
@@ -79,8 +79,8 @@ const Method& find_method(std::string_view name);
 /// ao_long is wanted and the chosen method does not give it: these are factors of one method's own ao.
 std::vector<const Method*> methods_for(const Method& chosen, ChannelSet wanted);
 
-/// Checks the settings. \throw InputError if a setting matches no parameter of the methods (the message lists the known
-/// parameters), or its value is out of range.
+/// Checks the settings. \throw InputError if no method has a parameter of that name (the message lists those that
+/// exist), or if a value is out of range.
 void check_settings(std::span<const Method* const> methods, const Settings& settings);
 void check_settings(const MethodInfo& method, const Settings& settings);
 
@@ -90,7 +90,7 @@ struct MethodRun {
     Settings settings;
     ChannelSet wanted;
 };
-/// The methods of methods_for(), with the settings and channels of each. \throw what methods_for() and check_settings()
+/// The methods of methods_for(), each with its settings and channels. \throw what methods_for() and check_settings()
 /// throw.
 std::vector<MethodRun> runs_for(const Method& chosen, const Settings& settings, ChannelSet wanted);
 
@@ -119,10 +119,10 @@ struct MethodChoice {
 /// `samples` is out of its range.
 MethodChoice choose(const Method& method, std::optional<int> samples = {});
 
-/// The method, with the sample count from the settings, or its default sample count if they have none.
+/// The method, with the sample count from the settings, or with its default sample count if the settings have none.
 MethodChoice choice_of(const Method& method, const Settings& settings);
 
-/// Every method that gives ao, with defaults; guided, exact and traced also at several ray counts.
+/// Every method that gives ao, with its default sample count; also guided, exact and traced at several ray counts.
 std::vector<MethodChoice> standard_choices();
 
 }

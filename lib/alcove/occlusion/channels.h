@@ -18,7 +18,7 @@ enum class Channel : std::uint8_t {
     ao_long,     ///< visibility over the full range, in [0, 1]
     convexity,   ///< in [0, 1]: 0.5 on flat surfaces, higher on convex edges, lower in concave corners
     bent_normal, ///< cosine-weighted mean of the unoccluded directions, unit length; (0, 0, 0) if none is open
-    thickness,   ///< distance along the reversed normal to the far side, at most the radius and 2 extent(); field unit
+    thickness,   ///< distance along the reversed normal to the far side, at most longest_ray(); field unit
 };
 
 struct ChannelInfo {
@@ -26,8 +26,8 @@ struct ChannelInfo {
     std::string_view name;
     std::size_t components; ///< floats per surfel
     float missing;          ///< value for surfels without a normal
-    bool inside;            ///< whether it is computed from the field behind the surface, down to the radius
-    bool visibility;        ///< whether it is a visibility, which is 0 for surfels that other faces cover
+    bool inside;            ///< whether it needs the field behind the surface, to the depth of the radius
+    bool visibility;        ///< whether it is a visibility: 0 at surfels that other faces cover
 };
 
 inline constexpr std::array<ChannelInfo, 6> channels{{
@@ -64,10 +64,10 @@ constexpr ChannelSet operator|(Channel a, Channel b) {
 }
 
 /// Where an estimator writes the values of each channel for one batch, surfel after surfel. Null for channels that were
-/// not requested.
+/// not requested, except that ao is never null.
 using Outputs = PerChannel<float*>;
 
-/// The names of the channels, in the order of `channels`: "ao, convexity".
+/// The names of the channels in the set, in the order of `channels`: "ao, convexity".
 std::string names_of(ChannelSet attributes);
 
 }

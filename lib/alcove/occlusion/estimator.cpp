@@ -15,8 +15,9 @@ std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels) {
     constexpr double cells = 1 << (morton_bits - 1);
     const Vec3d scale = cells / glm::max(box.max - box.min, Vec3d(1e-300));
     const auto code = [&](std::uint32_t i) { return morton_code((Vec3d(surfels[i].position) - box.min) * scale); };
-    // Few surfels share even the upper bits of their codes, so radix sort covers only those. Ties are broken by the
-    // whole code, position and normal, because the result must not depend on the order of the surfels.
+    // Few surfels share the upper 32 bits of their codes, so the radix sort covers only these bits. Ties are broken by
+    // the whole code, then by position, normal and `away`, because the result must not depend on the order of the
+    // surfels.
     constexpr int code_bits = 3 * morton_bits, sorted_by_radix = 32;
     using Key = Keyed<std::uint32_t>;
     HugeVector<Key> keys;

@@ -7,10 +7,10 @@
 ///         void operator()(const F& field, const SurfelBatch& surfels, const Outputs& out) const;
 ///     };
 ///
-/// It writes one value in [0, 1] per surfel to `out[Channel::ao]`, and fills each other channel in its `gives`
-/// whose pointer is not null. Every surfel of a batch has a normal. Lengths are in the unit of the field. The
-/// call operator is `const` and keeps no state, so any number of threads can share one estimator. To be
-/// selectable by name, the struct also describes itself as Classic does and has a line in catalog.cpp.
+/// The call operator writes one value in [0, 1] per surfel to `out[Channel::ao]`, and fills each other channel of the
+/// static member `gives` whose pointer is not null. Every surfel of a batch has a normal. Lengths are in the unit of
+/// the field. The call operator is `const` and keeps no state, so any number of threads can share one estimator. To be
+/// selectable by name, the struct also needs the descriptive members that Classic has, and an entry in catalog.cpp.
 ///
 /// *Reference units*: the constants of a published formula assume its reference radius R₀. For a radius R,
 /// heights are multiplied by R/R₀ and distances by R₀/R. Scaling scene and radius together therefore changes
@@ -45,7 +45,7 @@ struct SurfelBatch {
     Values highest;    ///< Surfel::highest
     std::size_t count = 0;
 
-    /// The position is moved by `lift` away from the faces that the surfel touches.
+    /// Moves the position by `lift` away from the faces that the surfel touches.
     void push_back(const Surfel& surfel, float lift = 0.0f) {
         set(x, y, z, surfel.position + lift * surfel.away);
         set(nx, ny, nz, surfel.normal);
@@ -59,7 +59,7 @@ struct SurfelBatch {
     bool touches(std::size_t i) const { return lx[i] != nx[i] || ly[i] != ny[i] || lz[i] != nz[i]; }
     /// Where rays start, see Surfel::origin().
     Vec3 origin(std::size_t i, float height) const { return position(i) + height * Vec3(lx[i], ly[i], lz[i]); }
-    /// Where rays on triangles start, see Surfel::ray_origin().
+    /// Where rays against triangles start, see Surfel::ray_origin().
     Vec3 ray_origin(std::size_t i, float height) const { return origin(i, std::min(height, highest[i])); }
 
   private:
@@ -90,7 +90,7 @@ float start_height(const F& field, float radius) {
     return std::max(0.1f * resolution(field), ray_offset(radius));
 }
 
-/// Surfels with their reference ao, to which an estimator is fitted.
+/// Surfels and their reference ao, for fitting an estimator to a mesh.
 struct Labels {
     std::vector<Surfel> surfels;
     std::vector<float> ao;
@@ -110,8 +110,8 @@ void map_probes(const F& field, const ProbeBatch& probes, std::size_t count, flo
     map_batch(field, Points{probes.x.data(), probes.y.data(), probes.z.data(), count}, reach, distances);
 }
 
-/// distances[i] = map(position + height · normal) for the whole batch. A negative height is behind the surface.
-/// Cost: one map() call per surfel.
+/// distances[i] = map(position + height · normal) for the whole batch. A negative height lies behind the surface. Cost:
+/// one map() call per surfel.
 template <Field F>
 void probe_along_normal(const F& field, const SurfelBatch& surfels, float height, float* distances) {
     ProbeBatch probes;
@@ -128,9 +128,9 @@ void probe_along_normal(const F& field, const SurfelBatch& surfels, float height
 std::vector<std::uint32_t> spatial_order(std::span<const Surfel> surfels);
 
 /// Computes every wanted channel that the estimator gives, in one pass along `order`, a spatial_order(). Surfels
-/// without a normal get ChannelInfo::missing; covered ones get 0 in channels of visibility. The values depend neither
-/// on the number of threads nor on the order of the surfels. `progress` is never called concurrently. Cost: one
-/// evaluation of the estimator per surfel.
+/// without a normal get ChannelInfo::missing; covered ones get 0 in the channels with ChannelInfo::visibility. The
+/// values depend neither on the number of threads nor on the order of the surfels. `progress` is never called
+/// concurrently. Cost: one evaluation of the estimator per surfel.
 template <class F, Estimator<F> E>
 ChannelValues evaluate(std::span<const Surfel> surfels, std::span<const std::uint32_t> order, const F& field,
                        const E& estimator, ChannelSet wanted, const Progress& progress = {}) {

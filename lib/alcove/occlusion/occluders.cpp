@@ -27,7 +27,7 @@ struct RaySurface::Scene {
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
     std::vector<TrianglePair> pairs; // Embree's quads
-    std::vector<Fan> fans;           // triangles that are not among the pairs
+    std::vector<Fan> fans;           // the triangles that are not in `pairs`
     const Vec3* vertices = nullptr;  // Embree's copy
 
     Scene() = default;
@@ -55,10 +55,10 @@ void RaySurface::Scene::build(std::span<const Vec3> positions, std::span<const T
         std::memcpy(to, items.data(), items.size_bytes());
         return to;
     };
-    // Building takes a quarter of the time of a higher quality, and rays are as fast.
+    // The build takes a quarter of the time that higher qualities take, and rays are as fast.
     constexpr RTCBuildQuality quality = RTC_BUILD_QUALITY_LOW;
     rtcSetSceneBuildQuality(scene, quality);
-    // Embree splits a quad into the same two triangles as a pair, with half as many primitives to build from.
+    // Embree splits a quad into the same two triangles as a pair, and builds from half as many primitives.
     pairs = pair_triangles(positions, triangles);
     if (!pairs.empty()) {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
@@ -197,7 +197,7 @@ void RaySurface::find_near(const Vec3& point, float distance, std::vector<Triang
         to.found.push_back({pair[0], pair[1], pair[3]});
         if (pair[2] != pair[3])
             to.found.push_back({pair[2], pair[3], pair[1]});
-        return false; // the distance stays the same
+        return false; // the search distance stays the same
     };
     rtcPointQuery(scene_->scene, &query, &context, add, &search);
 }

@@ -22,7 +22,7 @@ float ray_offset(float radius);
 /// A point on a triangle.
 struct SurfaceHit {
     Triangle vertices{}; ///< indices into the positions given to RaySurface
-    Vec3 weights{0.0f};  ///< barycentric coordinates, of sum 1
+    Vec3 weights{0.0f};  ///< barycentric coordinates, with sum 1
     Vec3 normal{0.0f};   ///< normal of the triangle, not normalised
 };
 
@@ -34,21 +34,23 @@ class RaySurface {
     /// if memory runs out.
     RaySurface(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-    /// Sets `hit` of every ray: whether it meets a triangle, from either side, between its `travelled` and `far`,
-    /// which may be infinite. Cost: about 0.1 µs per ray if neighbours in the batch start near each other.
+    /// Sets `hit` of every ray: whether it meets a triangle, from either side, at a distance between the ray's
+    /// `travelled` and `far`. `far` may be infinite. Cost: about 0.1 µs per ray if neighbours in the batch start near
+    /// each other.
     void find_occluded(RayBatch& rays, float far) const;
 
-    /// As find_occluded(), but finds the nearest triangle: sets `travelled` to its distance and `hits[i]` to the
-    /// point, for rays that hit. `hits` has one entry per ray.
+    /// As find_occluded(), but finds the nearest triangle: for each ray that hits, sets `travelled` to the distance and
+    /// `hits[i]` to the point. `hits` has one entry per ray.
     void find_nearest(RayBatch& rays, float far, std::span<SurfaceHit> hits) const;
 
-    /// Replaces `found` by the triangles within `distance` of a point, and some that are further away. Leaves out
-    /// duplicates, and triangles of fans with thousands of triangles around a vertex. Cost: about 0.3 µs if
-    /// neighbouring points follow each other, and 10 ns per triangle.
+    /// Sets `found` to the triangles within `distance` of a point, and some that are farther away. Leaves out
+    /// duplicates that the constructor removed, and triangles that share a vertex with thousands of others. Cost: about
+    /// 0.3 µs if successive points are neighbours, and 10 ns per triangle found.
     void find_near(const Vec3& point, float distance, std::vector<Triangle>& found) const;
-    /// The positions given to the constructor; null if no triangle can be hit.
+    /// The positions given to the constructor; null if there are no pairs().
     const Vec3* positions() const;
-    /// The triangles that find_near() searches, as corners 0, 1, 3 and 2, 3, 1; the second may be degenerate.
+    /// The triangles that find_near() searches, in pairs with corners 0, 1, 3 and 2, 3, 1; the second of a pair may be
+    /// degenerate.
     std::span<const std::array<std::uint32_t, 4>> pairs() const;
 
   private:
@@ -56,7 +58,7 @@ class RaySurface {
     std::shared_ptr<const Scene> scene_;
 };
 
-/// A field, triangles, or both, in unit space. Copies share them; `const` use is thread-safe.
+/// A field, triangles, or both, in unit space. Copies share the field and the triangles; `const` use is thread-safe.
 class Occluders {
   public:
     Occluders(AnyField field) : field_(std::move(field)) {}

@@ -6,14 +6,14 @@
 
 namespace alcove {
 
-/// Surfels along a curve, as arrays of at least `window` values.
+/// Surfels in the order of a curve, as arrays of at least `window` values.
 struct Curve {
     static constexpr std::size_t window = 96; ///< consecutive surfels in one filter window
     static constexpr std::size_t probes = 10;
 
     const float *x, *y, *z;                 ///< positions
     const float *nx, *ny, *nz;              ///< unit normals, or zero to exclude a surfel
-    std::array<const float*, probes> probe; ///< CalibratedInputs along the normal, and the mean of each ring
+    std::array<const float*, probes> probe; ///< CalibratedInputs: those along the normal, then the mean of each ring
 };
 
 /// The weights of the `window` surfels from `first` on, as neighbours of surfel `center`: the products of

@@ -48,7 +48,7 @@ bool is_inside(const RaySurface& surface, const Vec3& point, const Vec3& directi
     return false;
 }
 
-/// Finds the contacts of single surfels.
+/// Finds the contacts of surfels, one surfel at a time.
 class ContactSearch {
   public:
     ContactSearch(const RaySurface& surface, float offset, const IsOwnFace& is_own)

@@ -12,7 +12,7 @@
 
 namespace alcove {
 
-/// An orthonormal basis around the unit vector n, continuous except at n.z = 0− (Duff et al. 2017).
+/// An orthonormal basis around the unit vector n, continuous except where n.z changes sign (Duff et al. 2017).
 struct Basis {
     Vec3 tangent, bitangent, normal;
 

@@ -38,7 +38,7 @@ struct Fan::Search {
     static Search of(const RaySegment& ray) {
         const Vec3d begin = ray.origin + ray.near * ray.direction;
         const Vec3d end = std::isfinite(ray.far) ? ray.origin + ray.far * ray.direction : ray.direction;
-        constexpr double smallest_sine = 1e-7; // below this, rounding would decide, so no direction is ruled out
+        constexpr double smallest_sine = 1e-7; // below this, rounding errors dominate, so no direction is ruled out
         Vec3d across = glm::cross(begin, end);
         if (glm::length(across) <= smallest_sine * glm::length(begin) * glm::length(end))
             across = Vec3d(0.0);
@@ -115,14 +115,14 @@ std::optional<Fan::Hit> Fan::hit(std::uint32_t triangle, const RaySegment& from_
 std::optional<Fan::Hit> Fan::find(const RaySegment& ray, Wanted wanted) const {
     RaySegment from_hub = ray;
     from_hub.origin -= hub_;
-    // The ray may pass the hub at a distance beyond all corners.
+    // The ray misses all triangles if it passes the hub farther away than the farthest corner.
     const double closest = std::clamp(-glm::dot(from_hub.origin, ray.direction), ray.near, ray.far);
     const Vec3d p = from_hub.origin + closest * ray.direction;
     std::optional<Hit> found;
     if (glm::dot(p, p) > reach2_)
         return found;
     const Search search = Search::of(from_hub);
-    std::array<std::uint32_t, 64> waiting; // deeper than a tree of 2^32 arcs
+    std::array<std::uint32_t, 64> waiting; // enough for the depth of a tree of 2^32 arcs
     std::size_t count = 0;
     for (waiting[count++] = 0; count > 0;) {
         const std::uint32_t at = waiting[--count];

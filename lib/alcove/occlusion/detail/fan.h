@@ -1,7 +1,8 @@
-/// Many triangles around one vertex, in a tree by direction.
+/// Many triangles around one vertex, in a tree sorted by direction.
 ///
-/// The boxes of long thin triangles around a vertex overlap so much that a ray through a tree of such boxes costs time
-/// in proportion to their number. Seen from that vertex, however, each triangle is a short arc, and so is a ray.
+/// The bounding boxes of long thin triangles around a vertex overlap so much that the cost of a ray through a tree of
+/// such boxes is proportional to the number of triangles. Seen from that vertex, however, each triangle is a short arc
+/// of directions, and a ray is an arc too.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -13,7 +14,7 @@
 
 namespace alcove {
 
-/// The part of a ray from `near` to `far`, which may be infinite.
+/// The part of a ray from `near` to `far`; `far` may be infinite.
 struct RaySegment {
     Vec3d origin, direction;
     double near, far;
@@ -28,7 +29,8 @@ class Fan {
         Vec3d normal;  ///< not normalised
     };
 
-    /// The first corner of each triangle is the hub, which all share. All triangles are finite and have an area.
+    /// The first corner of each triangle is the hub, which all triangles share. Triangles must be finite and have an
+    /// area.
     Fan(std::span<const Vec3> positions, std::vector<Triangle> triangles);
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -62,11 +64,12 @@ class Fan {
     std::vector<Node> nodes_;
 };
 
-/// The fewest triangles around a vertex for which a Fan is faster.
+/// The fewest triangles around a vertex for which a Fan is faster than the BVH.
 inline constexpr std::size_t smallest_fan = 8192;
 
 /// Fans around all vertices that have at least `smallest_fan` triangles. If there are any fans, `others` gets the
-/// remaining triangles. Leaves out triangles that no ray can hit. Cost if there are no fans: about 2 ns per triangle.
+/// remaining triangles. The fans leave out triangles that no ray can hit. Cost if there are no fans: about 2 ns per
+/// triangle.
 std::vector<Fan> fans_of(std::span<const Vec3> positions, std::span<const Triangle> triangles,
                          std::vector<Triangle>& others);
 

@@ -34,12 +34,12 @@ struct Sources {
         });
     }
 
-    /// The reach of a fit for the ranks [begin, end). About twelve sources lie within twice their mean distance in
-    /// space. The reach is rounded to steps, so that few neighbouring blocks have different reaches: a change of the
-    /// reach may be visible.
+    /// The reach of the fits for the ranks [begin, end): about twice the mean distance between neighbouring sources in
+    /// space, so that about twelve sources lie within it. The reach is rounded to steps, so that it seldom changes
+    /// between neighbouring blocks: a change may be visible.
     float reach(std::size_t begin, std::size_t end) const {
         constexpr std::size_t beside = 2;
-        constexpr float spacings_per_reach = 1.0f; // spacings along the curve, which are larger than those in space
+        constexpr float spacings_per_reach = 1.0f; // spacings along the curve are larger than those in space
         constexpr float steps = 2.0f;              // per octave
         const auto at = [&](std::size_t rank) {
             return static_cast<std::size_t>(std::lower_bound(ranks.begin(), ranks.end(), rank) - ranks.begin());
@@ -80,8 +80,7 @@ class Interpolator {
         values_.resize(used_ * count());
     }
 
-    /// Evaluates and interpolates all surfels. \return false if more than the allowed share of them would have to be
-    /// evaluated
+    /// Evaluates or interpolates all surfels. \return false if more than `max_share` of them would have to be evaluated
     bool run() {
         for (std::size_t stride = interpolation_.stride;; stride /= 4) {
             std::vector<std::uint32_t> next;
@@ -103,20 +102,20 @@ class Interpolator {
         return static_cast<double>(evaluated_) / static_cast<double>(std::max<std::size_t>(count(), 1));
     }
 
-    /// The values of the surfel at a rank of the given order.
+    /// The values of the surfel at a rank in `order`.
     const float* values(std::size_t rank) const { return &values_[used_ * ranks_[rank]]; }
 
   private:
     enum class State : std::uint8_t { unknown, to_evaluate, evaluated, interpolated };
-    /// The position and normal of a surfel; there are millions, so nothing else is copied.
+    /// The position and normal of a surfel. There are millions of surfels, so nothing else is copied.
     struct Place {
         Vec3 position, normal;
     };
 
     std::size_t count() const { return indices_.size(); }
 
-    /// Chooses one of every `stride` surfels at random: along the curve, surfels may alternate regularly, as those on
-    /// two sides of a sheet or those of a grid do.
+    /// Chooses one of every `stride` surfels at random. A fixed choice would be biased where surfels alternate
+    /// regularly along the curve, as on the two sides of a sheet or on a grid.
     static bool is_chosen(std::uint32_t rank, std::size_t stride) {
         return rank % stride == hash(static_cast<std::uint32_t>(rank / stride)) % stride;
     }
@@ -145,7 +144,7 @@ class Interpolator {
         evaluated_ += chosen.size();
     }
 
-    /// Interpolates the unknown surfels around which the sources agree.
+    /// Interpolates at the unknown surfels around which the sources agree.
     void interpolate() {
         Sources sources;
         for (std::uint32_t i = 0; i < count(); ++i)
@@ -210,7 +209,7 @@ class Interpolator {
     }
 
     void interpolate_at(std::size_t i, const FitSources::Arrays& near, float reach) {
-        constexpr float least_weight = 0.5f; // one source close by weighs more
+        constexpr float least_weight = 0.5f; // a single source close to the surfel weighs more
         const LocalFit fit = local_fit(near, {places_[i].position, places_[i].normal}, reach, used_);
         if (!(fit.weight >= least_weight) || !(fit.deviation <= interpolation_.tolerance)) // also NaN
             return;
@@ -232,8 +231,8 @@ class Interpolator {
     const Progress& progress_;
     std::span<const Surfel> surfels_;
     std::size_t used_;                   // values per surfel
-    HugeVector<std::uint32_t> ranks_;    // index into the next arrays, by rank in the order
-    HugeVector<Place> places_;           // along the curve; equal surfels are merged
+    HugeVector<std::uint32_t> ranks_;    // index into the arrays below, by rank in `order`
+    HugeVector<Place> places_;           // along the curve; successive equal surfels are merged
     std::vector<std::uint32_t> indices_; // index of the first surfel of each place
     HugeVector<float> values_;
     HugeVector<State> states_;

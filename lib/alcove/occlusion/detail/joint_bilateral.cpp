@@ -12,7 +12,7 @@
 namespace alcove {
 namespace {
 
-using Probes = ThirtyEightProbes; // more probes would take longer than another ray
+using Probes = ThirtyEightProbes; // more probes would cost more time than another ray
 static_assert(Curve::probes == Probes::normal.size() + Probes::rings.size());
 
 /// The length of the mean of cosine-weighted directions if all are open: ∫ cos²θ dω / π.
@@ -24,8 +24,8 @@ float variance_of(float open) {
     return p * (1.0f - p);
 }
 
-/// The weight of a surfel's own rays against the filtered value (James and Stein 1961): 0 if noise explains the
-/// variance among the neighbours. The threshold is twice the noise, because that variance is itself an estimate.
+/// The weight of a surfel's own rays relative to the filtered value (James and Stein 1961): 0 if noise explains the
+/// variance among the neighbours. The threshold is twice the noise, because the variance is itself an estimate.
 float own_weight(float variance, float noise) {
     return variance > 2.0f * noise ? 1.0f - 2.0f * noise / variance : 0.0f;
 }
@@ -61,7 +61,7 @@ JointBilateral::JointBilateral(std::span<const Surfel> surfels, std::span<const 
 }
 
 void JointBilateral::probe(const AnyField& field, std::size_t begin, std::size_t end) {
-    // Beyond one diagonal from the mesh, probes carry no information.
+    // Probes farther than one diagonal from the mesh carry no information.
     const float radius = std::min(guided_.radius, 1.0f);
     const float lift = start_height(field, radius);
     SurfelBatch batch;
@@ -119,7 +119,7 @@ void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::si
         }
     }
     flush();
-    // Filter only the deviation from an unoccluded surfel, whose bent normal is its normal.
+    // Filter only how the mean direction deviates from that of an unoccluded surfel, which points along the normal.
     for (std::size_t i = begin; with_bent_ && i < end; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
             columns_[bent + axis][i] -= open_length * columns_[ao][i] * columns_[normal + axis][i];
@@ -137,8 +137,8 @@ void JointBilateral::fit_model() {
         unexplained += double(error) * error - 1.3 * noise_ * variance_of(open);
     }
     // On scans, the standard deviation of the model's error is 0.2 to 0.4 times that of the true ao, and the
-    // predictions vary about as much as the true ao. Hence the factor 0.16 = 0.4². The error is larger where the
-    // residuals exceed the noise of the rays, which is at most 1.3 times noise_.
+    // predictions vary about as much as the true ao. Hence the factor 0.16 = 0.4². The variance is set higher if the
+    // residuals exceed the noise of the rays, whose variance is at most 1.3 times that given by noise_.
     const auto count = static_cast<double>(size());
     const double variance = sum2 / count - (sum / count) * (sum / count);
     model_variance_ = static_cast<float>(std::max({0.16 * variance, unexplained / count, 4e-4}));
@@ -162,8 +162,8 @@ JointBilateral::Filtered JointBilateral::filter(std::size_t i) const {
     return filtered;
 }
 
-/// Fits each component as a + b·(predicted_i − predicted) over the neighbours; the surfel's own rays correct for
-/// what the fit leaves unexplained.
+/// Fits each component as a + b·(predicted_i − predicted) over the neighbours. The more variance the fit leaves
+/// unexplained, the more the surfel's own rays count.
 Vec3 JointBilateral::filter_bent(std::size_t i, std::size_t first, const float* weights) const {
     float unexplained = 0.0f;
     Vec3 fitted(0.0f), own(0.0f);

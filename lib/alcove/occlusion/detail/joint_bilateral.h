@@ -11,9 +11,9 @@
 
 namespace alcove {
 
-/// The probe and ray results of surfels along the Morton curve; surfels with the same position and normal are
-/// merged. Call probe() and shoot() for all surfels, then fit_model() once, then filter(). All but fit_model()
-/// may run concurrently for different surfels.
+/// The results of probes and rays for surfels along the Morton curve; successive surfels for which is_same() holds are
+/// merged. Call probe() and shoot() for all surfels, then fit_model() once, then filter(). All of these except
+/// fit_model() may run concurrently for different surfels.
 class JointBilateral {
   public:
     JointBilateral(const JointBilateral&) = delete;
@@ -22,7 +22,7 @@ class JointBilateral {
                    bool with_bent);
 
     std::size_t size() const { return surfels_.size(); }
-    /// The index, after merging, of the surfel at `rank` in the order.
+    /// The index, after merging, of the surfel at `rank` in `order`.
     std::size_t index_of(std::size_t rank) const { return index_[rank]; }
 
     void probe(const AnyField& field, std::size_t begin, std::size_t end);
@@ -42,10 +42,10 @@ class JointBilateral {
         ao = 6,
         predicted, ///< ao predicted by the model
         residual,  ///< ao − predicted
-        bent,      ///< deviation of the bent normal from that of an unoccluded surfel; unused if not requested
+        bent,      ///< mean of open directions minus ao times that of an unoccluded surfel; unused if not requested
         columns = bent + 3
     };
-    /// The probes of the curve, and the hidden layer of the network of Calibrated.
+    /// The probes in Curve, and the hidden layer of Calibrated's network.
     static constexpr std::size_t features = Curve::probes + RingNetwork::hidden;
 
     Curve curve() const;
@@ -55,10 +55,10 @@ class JointBilateral {
     const Guided guided_;
     const CosineLattice lattice_;
     const bool with_bent_;
-    /// Filter radius in median spacings along the curve: smaller for more rays. Measured on scans.
+    /// Filter radius, as a multiple of the median spacing along the curve: smaller for more rays. Tuned on scans.
     const float spacings_;
-    /// Variance of the mean of one surfel's rays, relative to the variance of a single ray; and the variance of their
-    /// mean direction. Both are powers of the ray count, measured for shifted lattices.
+    /// The variance of the mean of one surfel's rays, relative to the variance of a single ray, and the variance of the
+    /// mean direction of these rays. Both are powers of the ray count, fitted to measurements with shifted lattices.
     const float noise_, noise_of_bent_;
     std::vector<Surfel> surfels_;
     std::vector<std::uint32_t> index_; ///< index into surfels_ by rank

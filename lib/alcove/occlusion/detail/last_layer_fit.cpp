@@ -25,7 +25,7 @@ void LastLayerFit::add(const RingNetwork::Hidden& h, std::span<const float> ao) 
 }
 
 RingNetwork::LastLayer LastLayerFit::layer() const {
-    constexpr double ridge = 1.0; // measured on scans and parts, with 250 to 2,000 examples
+    constexpr double ridge = 1.0; // tuned on scans and parts, with 250 to 2,000 examples
     constexpr auto n = static_cast<Eigen::Index>(RingNetwork::hidden);
     Eigen::MatrixXd matrix = Eigen::Map<const Eigen::MatrixXd>(products_.data(), n, n);
     matrix.diagonal().array() += ridge;

@@ -9,13 +9,14 @@
 
 namespace alcove {
 
-/// Ridge regression of the errors of a network on its hidden values (Hoerl and Kennard 1970). The last layer changes
-/// only as far as the examples support a change. The value on planes does not change.
+/// Ridge regression of a network's errors on its hidden values (Hoerl and Kennard 1970). The last layer changes only as
+/// far as the examples support a change. The network's value on planes stays the same.
 class LastLayerFit {
   public:
     explicit LastLayerFit(const RingNetwork::LastLayer& trained);
 
-    /// Adds the first `ao.size()` surfels of a batch; ao is 1 plus the value of the network.
+    /// Adds the first `ao.size()` surfels of a batch as examples. `ao` is the reference, which 1 plus the network's
+    /// value should approximate.
     void add(const RingNetwork::Hidden& h, std::span<const float> ao);
     /// The fitted layer, or the trained one if there are no examples.
     RingNetwork::LastLayer layer() const;

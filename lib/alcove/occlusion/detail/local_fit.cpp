@@ -17,7 +17,7 @@ namespace alcove {
 /// Weighted sums over the sources. a and b are coordinates on the tangent plane.
 struct FitSums {
     float w, wa, wb, waa, wab, wbb;
-    float wvv; ///< for the first value
+    float wvv; ///< of the first value only
     SurfelValues wv, wva, wvb;
 };
 
@@ -127,7 +127,7 @@ LocalFit local_fit(const FitSources::Arrays& sources, const Surfel& at, float re
         return {};
     LocalFit fit{.weight = s.w};
     const float per_weight = 1.0f / s.w, a = per_weight * s.wa, b = per_weight * s.wb;
-    // Few or collinear sources determine no slope.
+    // Without this term, few or collinear sources would leave the slope undetermined.
     const float stiffness = 0.002f * reach * reach;
     const float aa = per_weight * s.waa - a * a + stiffness, bb = per_weight * s.wbb - b * b + stiffness,
                 ab = per_weight * s.wab - a * b, per_determinant = 1.0f / (aa * bb - ab * ab);

@@ -9,10 +9,10 @@
 
 namespace alcove {
 
-/// Values per surfel, of which the first ones are used: ao, then the bent normal.
+/// The values of a surfel: ao, then the bent normal. Callers may use only the first.
 using SurfelValues = std::array<float, 4>;
 
-/// Surfels with known values near a point, as arrays.
+/// The evaluated surfels near a point, as arrays.
 class FitSources {
   public:
     static constexpr std::size_t lanes = 16;
@@ -34,7 +34,7 @@ class FitSources {
     std::size_t count_ = 0;
 };
 
-/// Values at a point and how well the sources agree with them.
+/// The fitted values at a point, and how well the sources agree with the fit.
 struct LocalFit {
     float weight = 0.0f; ///< sum of the weights of the sources
     SurfelValues values{};

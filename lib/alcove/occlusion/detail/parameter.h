@@ -78,7 +78,8 @@ constexpr MethodInfo info_of() {
             samples_of<E>()};
 }
 
-/// E with the radius and its own parameters from the settings; ignores the rest. Values must be in range.
+/// An E with the radius and the parameters of E from the settings; other parameters are ignored. Values must be in
+/// range.
 template <class E>
 E with_settings(const Settings& settings) {
     E method;

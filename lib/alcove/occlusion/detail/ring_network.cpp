@@ -15,7 +15,7 @@
 #define ALCOVE_RING_NETWORK_MATRIX
 namespace alcove {
 
-/// A block of a matrix, row by row; `stride` is the distance of its rows.
+/// A block of a matrix, row by row; `stride` is the distance between the starts of successive rows.
 struct Matrix {
     const float* weights;
     std::size_t stride, rows, columns;
@@ -168,7 +168,7 @@ void RingNetwork::value(const Hidden& h, const LastLayer& last, Values& values) 
             values[k] += last[o] * h[o][k];
 }
 
-/// h for inputs of 0, for which all azimuths are equal.
+/// h for n = 0 and r_a = 0, for which all azimuths give the same f_a.
 std::array<float, RingNetwork::hidden> RingNetwork::hidden_on_plane(const Condition& condition) const {
     const std::size_t normals = shape_.shared, first = shape_.first, second = shape_.second, whole = normals + 2;
     const auto of_condition = [&](const float* row) {

@@ -10,12 +10,13 @@
 
 namespace alcove {
 
-/// For inputs n that concern the whole surfel, a condition c, and inputs r_a at each azimuth a:
+/// The inputs are n (which concern the whole surfel), a condition c, and r_a at each azimuth a:
 ///
 ///     e_a = relu(W r_a + V (r_{a−1} + r_{a+1})/2 + U [n, c] + b),  f_a = relu(W₂ e_a + b₂)
 ///     h = relu(W₃ [mean f_a, n, c] + b₃),  N = w · h
 ///
-/// with relu(x) = max(0, x) (Nair and Hinton 2010). Results are relative to those for inputs of 0.
+/// with relu(x) = max(0, x) (Nair and Hinton 2010). The functions return results relative to those for n = 0 and r_a =
+/// 0.
 class RingNetwork {
   public:
     static constexpr std::size_t hidden = 32;    ///< size of h
@@ -37,7 +38,7 @@ class RingNetwork {
 
     using Hidden = std::array<SurfelBatch::Values, hidden>;
     /// h(x_i, c) − h(0, c) for all lanes of a batch; `inputs` are n, then r_a for each azimuth. Cost: 0.03 ns per
-    /// coefficient and surfel with AVX2. The coefficients from W to W₂ count once per azimuth.
+    /// coefficient and surfel with AVX2. The coefficients W, V and W₂ count once per azimuth.
     void hidden_layer(std::span<const SurfelBatch::Values> inputs, const Condition& condition, Hidden& h) const;
     /// values[i] = N(x_i, c) − N(0, c).
     static void value(const Hidden& h, const LastLayer& last, SurfelBatch::Values& values);
@@ -48,7 +49,7 @@ class RingNetwork {
     std::array<float, hidden> hidden_on_plane(const Condition& condition) const;
 
     Shape shape_;
-    std::vector<float> coefficients_; // the others point into it
+    std::vector<float> coefficients_; // the pointers below point into it
     const float *own_, *neighbours_, *shared_, *first_bias_, *second_, *second_bias_, *third_, *third_bias_;
     LastLayer last_;
 };

@@ -19,7 +19,7 @@ float median_spacing(std::span<const Surfel> curve, std::size_t i) {
             distances[count++] = glm::length(curve[k].position - curve[i].position);
     if (count == 0)
         return 0.0f;
-    // A partial sort up to the median, without branches, as these would be unpredictable.
+    // A partial sort up to the median. It is free of branches, because the processor would mispredict them.
     for (std::size_t sorted = 0; sorted <= count / 2; ++sorted)
         for (std::size_t k = count - 1; k > sorted; --k) {
             const float a = distances[k - 1], b = distances[k];

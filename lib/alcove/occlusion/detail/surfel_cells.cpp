@@ -15,7 +15,8 @@ namespace alcove {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes the points of the ranges within the bounds to `found`, which has room for all of them and one SIMD vector.
+/// Writes those points of the ranges that are within the bounds to `found`, which has room for all points of the ranges
+/// and one SIMD vector more. \return their number
 std::size_t find_within(const SurfelCells::Points& points, std::span<const SurfelCells::Range> ranges,
                         const Bounds& bounds, std::uint32_t* found) {
     const hn::CappedTag<float, 16> d;
@@ -74,7 +75,7 @@ SurfelCells::SurfelCells(std::span<const Surfel> surfels, float cell) : blocks_(
     const Vec3 size = bounds.high - bounds.low;
     scale_ = 1.0f / std::max(cell, std::max({size.x, size.y, size.z}) / most_cells);
     last_ = scale_ * size;
-    constexpr std::size_t fewest_blocks = 1000, least_per_block = 8; // where surfels are dense, a hundred per block
+    constexpr std::size_t fewest_blocks = 1000, least_per_block = 8; // dense surfels have a hundred per block
     HugeVector<std::uint32_t> cell_of(surfels.size());
     for (std::size_t i = 0; i < surfels.size(); ++i)
         if (surfels[i].has_normal()) {
@@ -100,7 +101,7 @@ SurfelCells::SurfelCells(std::span<const Surfel> surfels, float cell) : blocks_(
         }
 }
 
-/// The cell of a point, or the closest one to it.
+/// The cell of a point, or the closest cell if the point is outside.
 SurfelCells::Cell SurfelCells::cell_at(const Vec3& p) const {
     const auto along = [&](int axis) {
         const float at = scale_ * (p[axis] - low_[axis]);

@@ -27,13 +27,13 @@ class SurfelCells {
     /// Cost: about 40 ns per surfel.
     SurfelCells(std::span<const Surfel> surfels, float cell);
 
-    /// Whether there are so few surfels per cell that cells waste memory. No other function may be called then.
+    /// Whether there are so few surfels per block that the cells waste memory. If so, no other function may be called.
     bool is_sparse() const { return is_sparse_; }
 
     struct Range {
         std::uint32_t begin, end;
     };
-    /// The result of find(), with buffers that one thread reuses.
+    /// The result of find(), with buffers that further searches of the same thread can reuse.
     class Found {
       public:
         std::span<const std::uint32_t> points() const { return std::span(points_).first(count_); }
@@ -51,11 +51,11 @@ class SurfelCells {
     };
     /// The cells that the bounds meet, or that are closest to them.
     Cells cells_in(const Bounds& bounds) const { return {cell_at(bounds.low), cell_at(bounds.high)}; }
-    /// Finds the points in `cells` that are within the bounds, as indices of points(). Cost: about 0.1 µs, and 20 ns
+    /// Finds the points in `cells` that are within the bounds, as indices into points(). Cost: about 0.1 µs, and 20 ns
     /// per cell.
     void find(const Cells& cells, const Bounds& bounds, Found& found) const;
 
-    /// The positions of surfels and their indices, in the order of cells.
+    /// The positions and indices of the surfels, sorted by cell.
     struct Points {
         HugeVector<float> x, y, z;
         HugeVector<std::uint32_t> surfel;
@@ -66,7 +66,7 @@ class SurfelCells {
     static constexpr std::uint64_t no_key = ~std::uint64_t(0);
     struct Block {
         std::uint64_t key = no_key;
-        std::uint32_t index = 0; ///< where its cells begin in begins_
+        std::uint32_t index = 0; ///< its number: its cells begin at cells_per_block · index in begins_
     };
 
     Cell cell_at(const Vec3& p) const;
@@ -74,11 +74,11 @@ class SurfelCells {
     std::uint32_t find_or_add(const Cell& cell);
 
     Vec3 low_, last_; ///< the corner of cell 0; the last cell along each axis
-    float scale_;     ///< cells per length
+    float scale_;     ///< cells per unit length
     std::vector<Block> blocks_;
     bool is_sparse_ = false;
     std::size_t block_count_ = 0;
-    std::vector<std::uint32_t> begins_{0}; ///< of the cells in points_, and their end
+    std::vector<std::uint32_t> begins_{0}; ///< where each cell begins in points_; then the end of the last
     Points points_;
 };
 

@@ -18,7 +18,7 @@ constexpr std::size_t max_surfels = 4096;
 /// alignment.
 constexpr float resolved_solid = 1.5f, resolved_sheet = 2.5f;
 
-/// The height above the surfel at which rays start, unit space: it exceeds the rounding error of the faces around the
+/// The height above the surfel at which rays start, unit space: more than the rounding error of the faces around the
 /// surfel.
 constexpr float start = 2e-6f;
 
@@ -47,8 +47,8 @@ std::vector<NextFace> next_faces(const std::vector<Surfel>& surfels, const RaySu
     return faces;
 }
 
-/// Distance to a face that the grid cannot separate from the surfel's own; infinite if there is none. In solids,
-/// only the far side of the wall counts, and only if the surfel is not itself inside a solid.
+/// Distance to a face that the grid cannot separate from the surfel's own face; infinite if there is none. In solids,
+/// only the far side of the wall counts, and only if the surfel itself is not inside another solid.
 float thickness(const NextFace& behind, const NextFace& in_front, bool two_sided) {
     if (two_sided)
         return std::min(behind.distance, in_front.distance);
@@ -58,7 +58,7 @@ float thickness(const NextFace& behind, const NextFace& in_front, bool two_sided
 }
 
 ThinWalls thin_walls(std::span<const Surfel> surfels, const RaySurface& surface, float voxel, bool two_sided) {
-    constexpr float across = 1.0f; // the whole mesh, to find out whether a surfel is inside a solid
+    constexpr float across = 1.0f; // the size of the mesh, to find out whether a surfel is inside a solid
     const std::vector<Surfel> some = pick(surfels, evenly(spatial_order(surfels), max_surfels));
     const float resolved = two_sided ? resolved_sheet : resolved_solid;
     const std::vector<NextFace> behind = next_faces(some, surface, -1.0f, resolved * voxel);

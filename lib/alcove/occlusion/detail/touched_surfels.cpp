@@ -18,7 +18,7 @@ Bounds bounds_of(const Vec3* positions, const TrianglePair& pair, float margin) 
     return {bounds.low - margin, bounds.high + margin};
 }
 
-/// Twice the median of the largest extents of a sample of the pairs.
+/// The cell size that suits the pairs: twice the median of the largest extents, over a sample of the pairs.
 float cell_for(const Vec3* positions, std::span<const TrianglePair> pairs) {
     constexpr std::size_t sample = 1024;
     std::vector<float> sizes;
@@ -32,8 +32,8 @@ float cell_for(const Vec3* positions, std::span<const TrianglePair> pairs) {
     return 2.0f * *median;
 }
 
-/// Whether a plane through an edge, at right angles to the triangle, has the triangle on one side, and the point on the
-/// other side, farther than `distance` from the plane. This is true of most points, and this test takes a third of the
+/// Whether the plane through some edge, at right angles to the triangle, separates the point from the triangle, and the
+/// point is farther than `distance` from that plane. This is true of most points, and the test takes a third of the
 /// time of closest_on_triangle().
 bool is_beside(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p, double distance) {
     const Vec3d normal = glm::cross(b - a, c - a);

@@ -71,7 +71,7 @@ class FilledAngles {
             if (distance_to_segment(a, b) > offset)
                 continue;
             const Vec3d edge = glm::normalize(b - a), inward = (c - a) - glm::dot(c - a, edge) * edge;
-            add(angle(edge), angle(inward), pi); // spans two right angles, as either end may be the lower one
+            add(angle(edge), angle(inward), pi); // two quarter turns: a half turn has no definite side
             add(angle(-edge), angle(inward), pi);
             return;
         }
@@ -95,7 +95,7 @@ class FilledAngles {
         const double a = std::atan2(glm::dot(direction, v_), glm::dot(direction, u_));
         return a < 0.0 ? a + 2.0 * pi : a;
     }
-    /// Adds the range between two angles, which extends across 0 if they are further than `most` apart.
+    /// Adds the range between two angles. The range extends across 0 if they are more than `most` apart.
     void add(double a, double b, double most) {
         const auto [low, high] = std::minmax(a, b);
         if (high - low <= most) {
@@ -128,14 +128,14 @@ bool is_covered(std::span<const NearFace> own, std::span<const NearFace* const> 
     return !duplicates.empty() && filled.full() && between_solids();
 }
 
-/// Whether `face`, which lies in the plane of `own`, covers it: `face` faces against `own` and is not behind it. The
-/// other side of a thin plate is behind it.
+/// Whether `face`, which lies in the plane of `own`, can cover it: `face` must face against `own` and must not be
+/// behind it. The other side of a thin plate is behind.
 bool faces_against(const NearFace& face, const NearFace& own) {
     constexpr double rounding = 2.5e-7; // of coordinates near 0.5
     return glm::dot(face.normal, own.normal) < 0.0 && glm::dot(face.corners[0], own.normal) >= -rounding;
 }
 
-/// Whether a face is in front of one of the own faces. The next face across a convex edge is not in front.
+/// Whether part of a face is in front of one of the own faces. The next face across a convex edge is not in front.
 bool is_before(const NearFace& face, std::span<const NearFace> own, const Vec3d& normal, double offset) {
     return std::any_of(own.begin(), own.end(), [&](const NearFace& own_face) {
         const Sides sides = sides_of({&face, 1}, own_face.normal, offset);

@@ -6,7 +6,7 @@
 namespace alcove {
 namespace {
 
-/// Adds the triangle to the pair if the pair has only one and they share an edge.
+/// Adds the triangle to the pair if the pair has only one triangle so far and the two share an edge.
 bool join(TrianglePair& pair, const Triangle& triangle) {
     if (pair[3] != pair[2])
         return false;

@@ -1,4 +1,4 @@
-/// Pairs triangles into quads, which halves the primitives that a BVH is built from.
+/// Pairs triangles into quads, which halves the number of primitives in a BVH.
 #pragma once
 
 #include "alcove/base/types.h"

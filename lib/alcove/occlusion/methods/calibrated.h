@@ -9,21 +9,21 @@
 
 namespace alcove {
 
-/// Every probe at distance h, tilted by θ from the normal, gives an input x = cos θ − d/h; then
+/// Every probe at distance h from the surfel, tilted by θ from the normal, gives an input x = cos θ − d/h; then
 ///
 ///     ao = clamp(1 + N(x, c) − N(0, c)),   N a RingNetwork, c the radius in voxels and whether the field is two-sided
 ///
-/// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. These
-/// meshes, and the error on meshes outside the training set, are in docs/calibrated.md. All x are independent of scale.
-/// Over a plane, as far as the bands of the field reach, all x are 0, so ao is 1. Probes do not resolve contacts:
-/// surfels that touch other faces get rays on the mesh, as in Exact, or in the field, as in Traced. Source: probes
-/// along the normal (Evans 2006); trained by fit/train_networks.py. Cost: 13, 38 or 63 map() calls per surfel, and
-/// 0.05, 0.1 or 0.2 µs.
+/// with coefficients trained on the reference AO of many meshes and scenes, at radii from 1 % of D to infinity. See
+/// docs/calibrated.md for these meshes, and for the error on meshes outside the training set. All x are independent of
+/// scale. Over a plane, as far as the bands of the field reach, all x are 0, so ao is 1. Probes do not resolve
+/// contacts, so surfels that touch other faces trace rays instead: against the mesh, as in Exact, if there is one,
+/// otherwise through the field, as in Traced. Source: probes along the normal (Evans 2006); trained by
+/// fit/train_networks.py. Cost: 13, 38 or 63 map() calls per surfel, and 0.05, 0.1 or 0.2 µs.
 struct Calibrated {
     float radius = 0.1f; ///< > 0
     int samples = 38;    ///< maximum number of probes, >= 13: there are networks for 13, 38 and 63
-    std::optional<RingNetwork::LastLayer> last{}; ///< last layer of the network, see fit(); empty: as trained
-    std::optional<RaySurface> mesh{};             ///< where surfels in contact trace rays; empty: in the field
+    std::optional<RingNetwork::LastLayer> last{}; ///< last layer of the network, see fit(); if empty, as trained
+    std::optional<RaySurface> mesh{};             ///< target of the rays of surfels in contact; if empty, the field
 
     static constexpr int rays_at_contacts = 64;
     static constexpr std::string_view name = "calibrated";
@@ -49,7 +49,8 @@ struct Calibrated {
         trace_contacts(field, surfels, out[Channel::ao]);
     }
 
-    /// Fits the last layer of the network to the mesh of the field. Cost: that of the estimator at the labels.
+    /// Fits the last layer of the network to `labels`, reference ao at surfels of the mesh that `field` describes.
+    /// Cost: that of evaluating the estimator at these surfels.
     template <Field F>
     void fit(const F& field, const Labels& labels) {
         with_probes([&]<class Probes>(Probes) { last = fitted_layer<Probes>(field, labels); });
@@ -58,7 +59,7 @@ struct Calibrated {
   private:
     template <Field F>
     void trace_contacts(const F& field, const SurfelBatch& surfels, float* ao) const {
-        const float lift = mesh ? start_height(field, radius) : 0.0f; // of the batch; undone for rays on the mesh
+        const float lift = mesh ? start_height(field, radius) : 0.0f; // of the batch; removed for rays on the mesh
         SurfelBatch touching;
         std::array<std::uint8_t, SurfelBatch::capacity> owner;
         for (std::size_t i = 0; i < surfels.count; ++i)

@@ -1,5 +1,5 @@
-/// The probes of the calibrated estimator and the inputs of its networks. The program that makes the training examples
-/// of these networks also uses them.
+/// The probes of the calibrated estimator and the inputs of its networks, which fit/make_examples.cpp also uses to make
+/// training examples.
 #pragma once
 
 #include "alcove/occlusion/detail/directions.h"
@@ -14,10 +14,10 @@ namespace alcove {
 struct CalibratedProbe {
     float height;      ///< distance from the surfel, in AO radii
     float tilt = 0.0f; ///< angle from the normal, degrees; 180: into the solid
-    bool fine = false; ///< read one level finer than the height needs
+    bool fine = false; ///< reads a level that is one finer than the height requires
 };
 
-/// Probes along the normal, and on rings around it that have a probe at each azimuth.
+/// Probes along the normal, and on rings around it with a probe at each azimuth.
 struct ThirteenProbes {
     static constexpr std::array<CalibratedProbe, 5> normal{
         {{0.0442f}, {0.25f}, {0.707f}, {0.125f, 0.0f, true}, {0.03125f, 180.0f}}};
@@ -60,14 +60,14 @@ using CalibratedInputs = std::array<SurfelBatch::Values, probe_count<Probes>>;
 template <Field F>
 RingNetwork::Condition calibrated_condition(const F& field, float radius) {
     constexpr float least = -0.25f, most = 1.25f; // radii of 4 to 256 voxels, as trained
-    constexpr float typical = 0.42f;              // for analytic shapes: 10 % of D on the grid of a bake
+    constexpr float typical = 0.42f;              // for analytic shapes: as for 10 % of D on the grid of a bake
     const float voxel = resolution(field);
     const float size = voxel > 0.0f ? std::log2(radius / voxel / 8.0f) / 4.0f : typical;
     return {std::clamp(size, least, most), two_sided(field) ? 1.0f : 0.0f};
 }
 
-/// The range of distances stored on the level that a probe reads, with the default bands of GridOptions. The networks
-/// are trained with this range, and a grid may have wider bands for other attributes.
+/// The range of distances stored on the level that a probe reads, with the default bands of GridOptions. Inputs are
+/// clamped to this range even if a grid has wider bands for other attributes, because the networks are trained with it.
 struct KnownDistances {
     float least = -std::numeric_limits<float>::infinity(), most = std::numeric_limits<float>::infinity();
 
@@ -84,8 +84,8 @@ struct KnownDistances {
 };
 
 /// Computes the network inputs of a batch. For a probe at distance h, tilted by θ: x = cos θ − d/h, clamped to [−1,
-/// 1.5]. x is 0 over a plane within the bands, negative over convex surfaces, positive near an occluder; independent of
-/// scale and radius. Cost: one map() call per probe and surfel.
+/// 1.5]. x is 0 over a plane within the bands, negative over convex surfaces and positive near an occluder. It does not
+/// depend on scale. Cost: one map() call per probe and surfel.
 template <class Probes, Field F>
 void calibrated_inputs(const F& field, const SurfelBatch& surfels, float radius, CalibratedInputs<Probes>& inputs) {
     ProbeBatch tangent, bitangent;

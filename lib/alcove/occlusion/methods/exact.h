@@ -1,4 +1,4 @@
-/// Rays over the hemisphere against the triangles: the reference for every other estimator.
+/// Traces rays over the hemisphere against the triangles: the reference for every other estimator.
 #pragma once
 
 #include "alcove/occlusion/detail/directions.h"
@@ -12,9 +12,9 @@ namespace alcove {
 ///
 ///     ao = 1/N Σ V(ω_i)        bent normal = normalize(Σ V(ω_i) ω_i)
 ///
-/// V = 0 if the ray hits a triangle closer than the radius, else 1. Rays start ray_offset() above p, and at
-/// the same distance from any other faces that p touches. As the number of rays grows, ao converges to the reference,
-/// A(p) = 1/π ∫ V(ω) max(0, n·ω) dω. Source: lecture notes (aolecture). Cost: `rays` rays per surfel, no map() calls.
+/// V = 0 if the ray hits a triangle closer than the radius, else 1. Rays start at a height of ray_offset() above p, and
+/// clear of any other faces that p touches. As the number of rays grows, ao converges to the reference, A(p) = 1/π ∫
+/// V(ω) max(0, n·ω) dω. Source: lecture notes (aolecture). Cost: `rays` rays per surfel, no map() calls.
 struct Exact {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< per surfel, >= 1; the error is about 0.016 at 64 and 0.0025 at 1,024

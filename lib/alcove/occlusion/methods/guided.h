@@ -6,27 +6,27 @@
 
 namespace alcove {
 
-/// Every surfel traces `rays` rays against the mesh, as Exact does; the noisy results v are then filtered:
+/// `rays` rays per surfel are traced against the mesh, as in Exact. The noisy results v are then filtered:
 ///
-///  1. Trace. An additive recurrence in the Morton rank shifts the lattice of directions, so that the rays of
-///     neighbouring surfels are low-discrepancy together (Roberts 2018).
+///  1. Trace. An additive recurrence, indexed by the Morton rank, shifts the lattice of directions of each surfel, so
+///     that the combined rays of neighbouring surfels are low-discrepancy too (Roberts 2018).
 ///  2. Predict. A ridge regression m predicts v from the probes of Calibrated along the normal, the mean of each of its
-///     rings, and the hidden layer of its network (38 probes). It is fitted to the rays of all surfels (Hoerl and
-///     Kennard 1970).
-///  3. Filter. The residuals r = v − m are averaged over neighbours, weighted by distance, by normals (0 beyond a
-///     right angle) and by the difference of their probes. This excludes the other side of a sheet and the other
-///     face of a crease (Buades et al. 2005). With weights w, variance σ² of the mean of one surfel's rays and
-///     variance τ² of the model, r̄ = Σ w r / (Σ w + σ²/τ²) (Matheron 1963).
+///     rings, and the hidden layer of its network (38 probes). It is fitted to the rays of up to 16,384 surfels (Hoerl
+///     and Kennard 1970).
+///  3. Filter. The residuals r = v − m are averaged over neighbours, weighted by distance, by the angle between normals
+///     (0 beyond a right angle) and by the difference between their probes. These weights exclude the other side of a
+///     sheet and the other face of a crease (Buades et al. 2005). With weights w, variance σ² of the mean of one
+///     surfel's rays and variance τ² of the model, r̄ = Σ w r / (Σ w + σ²/τ²) (Matheron 1963).
 ///  4. Correct. ao = a + max(0, 1 − 2σ²/s²) (v − a), with a = m + r̄ and s² the weighted mean of (r_i − r̄)²: the
 ///     surfel's own rays take over where its neighbours disagree (James and Stein 1961).
 ///
 /// With more rays, σ goes to 0 and the filter radius shrinks, so the result converges to Exact. Bent normals are
 /// filtered by their deviation from the normal, with a local regression on m (Cleveland 1979).
 ///
-/// Surfels with the same position and normal get the same values. Cost: 38 map() calls and `rays` rays per surfel,
-/// and 0.5 µs for the network and the filter.
+/// Surfels with the same position, normal and contacts get the same values. Cost: 38 map() calls and `rays` rays per
+/// surfel, and 0.5 µs for the network and the filter.
 struct Guided {
-    float radius = 0.1f; ///< > 0, may be infinite; probes go to min(radius, 1)
+    float radius = 0.1f; ///< > 0, may be infinite; probes reach at most min(radius, 1)
     int rays = 3;        ///< per surfel, >= 1
     std::uint32_t seed = 0;
 

@@ -6,18 +6,17 @@
 
 namespace alcove {
 
-/// Each probe is half a radius up the normal and half a radius to one side, and measures what share of that height is
-/// open:
+/// Each probe is half a radius up the normal and half a radius to one side. It measures which share o of R/2 is open:
 ///
 ///     bent = normalize(3 ao n + Σ o_i (n + t_i)),   o_i = clamp(d(p + R/2 (n + t_i)) / (R/2))
 ///
 /// with t_i the four axis directions of the surfel's Basis; (0, 0, 0) if ao and all probes are 0. Equals n on planes
-/// and convex shapes. Source: our own, not from a publication. Tilt, height and the factor 3 are those that come
-/// closest to exact rays on the fitted meshes of docs/calibrated.md. Averaged over the meshes that were not used for
-/// the fit, the error against 1,024 rays is 3.0, 1.9 and 1.3 degrees at radii of 20, 10 and 5 % of D; the error of the
-/// plain normal is 5.1, 3.5 and 2.3. On a few meshes the bent normal is no better than the normal. Deep in corners it
-/// leans too little, and it deviates sideways by up to 35 degrees where the probes are not aligned with the walls.
-/// Cost: 4 map() calls per surfel.
+/// and convex shapes. Source: unpublished, designed for this library. The tilt, the height and the factor 3 are the
+/// values that come closest to exact rays on the training meshes of docs/calibrated.md. Averaged over the meshes
+/// outside the training set, the error against 1,024 rays is 3.0, 1.9 and 1.3 degrees at radii of 20, 10 and 5 % of D;
+/// the error of the plain normal is 5.1, 3.5 and 2.3. On a few meshes the bent normal is no better than the normal.
+/// Deep in corners it leans too little, and it deviates sideways by up to 35 degrees where the probes are not aligned
+/// with the walls. Cost: 4 map() calls per surfel.
 template <Field F>
 void ring_bent_normal(const F& field, const SurfelBatch& surfels, float radius, const float* ao, float* bent) {
     const float height = 0.5f * radius, per_height = 1.0f / height;

@@ -5,7 +5,7 @@
 
 namespace alcove {
 
-/// The field with inside and outside swapped; unchanged for sheets, whose sides both count as outside.
+/// The field with inside and outside swapped; unchanged for sheets, both sides of which count as outside.
 template <Field F>
 struct Inverted {
     const F& field;
@@ -22,8 +22,9 @@ struct Inverted {
 };
 
 /// thickness = min(radius, distance from p along −n to the next surface), sphere-traced with one ray (Hart 1996). In a
-/// solid the ray starts at most half a voxel deep, so the error is at most half a voxel for walls that are thinner than
-/// that. Behind a sheet it starts 1.9 voxels deep and misses anything nearer. Cost: 4–20 map() calls per surfel.
+/// solid the search starts at most half a voxel deep, so the error is at most half a voxel for walls that are thinner
+/// than that. Behind a sheet the ray starts 1.9 voxels deep and misses anything nearer. Cost: 4–20 map() calls per
+/// surfel.
 struct Thickness {
     float radius = 0.1f; ///< largest thickness, > 0; may be infinite
 
@@ -74,12 +75,12 @@ struct Thickness {
     }
 
   private:
-    /// Increases each depth as far as the empty balls around a series of probes overlap. Each probe is four times as
-    /// deep as the one before. A ray along the normal moves straight away from the surface, so this gets much further
-    /// than sphere tracing from ball to ball (Keinert et al. 2014).
+    /// Increases each depth along the ray for as long as the empty balls around a series of probes overlap. Each probe
+    /// is four times as deep as the one before. A ray along the normal moves straight away from the surface, so these
+    /// probes advance much farther than sphere tracing from ball to ball (Keinert et al. 2014).
     template <Field F>
     static void leave_surface(const F& inside, const SurfelBatch& turned, float clearance, float far, float* depths) {
-        // The ball around a probe a little beyond half way can reach the end of the ray.
+        // The ball around a probe a little beyond the middle of the ray can reach the end of the ray.
         const float deepest = 0.55f * far;
         float depth = deepest;
         while (depth > 16.0f * clearance)
@@ -107,8 +108,8 @@ struct Thickness {
     /// produces a false surface, at most 1.5 + 1.5/(1.5 + 2.5) voxels behind the sheet.
     static constexpr float behind_sheet = 1.9f;
 
-    /// Moves hits on the false surface of a far sheet forward to the sheet itself: one voxel before such a hit, the
-    /// field still gives the true distance.
+    /// Moves hits on the false surface of a far sheet forward to the sheet itself. One voxel before such a hit, the
+    /// field still gives the true distance to the sheet.
     template <Field F>
     static void pass_negative_layer(const F& field, RayBatch& rays, float voxel) {
         ProbeBatch probes;

@@ -1,4 +1,4 @@
-/// Rays over the hemisphere, sphere-traced through the field. Converges to the reference with more rays and finer
+/// Sphere-traces rays over the hemisphere through the field. Converges to the reference with more rays and finer
 /// voxels.
 #pragma once
 
@@ -12,15 +12,15 @@
 namespace alcove {
 
 /// Finds the heights at which rays start (see Surfel::origin()): where the field is at least `clearance`. No height
-/// exceeds `highest`. A surfel is on the true surface, not on the interpolated surface of the grid, and at a sharp
-/// edge, moving along the normal gains little distance from the faces. A fixed height that is safe for all surfels (a
-/// voxel) would cause the largest error of tracing through a grid; these heights cause a tenth of that error. Cost: 1
-/// to 6 map() calls per surfel.
+/// exceeds `highest`. A constant height does not suffice: a surfel is on the true surface, not on the interpolated
+/// surface of the grid, and at a sharp edge, moving along the normal gains little distance from the faces. A constant
+/// height that is safe for all surfels (a voxel) would be the largest source of error when tracing through a grid;
+/// these heights cause a tenth of that error. Cost: 1 to 6 map() calls per surfel.
 template <Field F>
 void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearance, float highest, float* heights) {
     ProbeBatch probes;
     SurfelBatch::Values distances;
-    std::array<std::uint8_t, SurfelBatch::capacity> low; // surfels that still need a larger height
+    std::array<std::uint8_t, SurfelBatch::capacity> low; // surfels whose height is still too small
     std::size_t count = surfels.count;
     std::iota(low.begin(), low.begin() + count, std::uint8_t{0});
     std::fill_n(heights, count, clearance);
@@ -42,9 +42,9 @@ void clear_of_surface(const F& field, const SurfelBatch& surfels, float clearanc
     }
 }
 
-/// Turns misses into hits where a ray descends to the surface: it ends closer to the surface than `low[owner]`, and is
-/// closer than 1.5 times that halfway. In a crease, the rays of a lifted surfel pass over the walls that they would hit
-/// without the lift. Cost: two map() calls per miss with low[owner] > 0.
+/// Turns misses into hits where a ray descends to the surface: where its end is closer to the surface than
+/// `low[owner]`, and its middle is closer than 1.5 times that. In a crease, the rays of a lifted surfel pass over walls
+/// that they would hit without the lift. Cost: two map() calls per miss with low[owner] > 0.
 template <Field F>
 void hit_walls_passed(const F& field, RayBatch& rays, float far, const std::uint8_t* owner, const float* low) {
     RayBatch::Values x, y, z, middle, end;
@@ -70,8 +70,8 @@ void hit_walls_passed(const F& field, RayBatch& rays, float far, const std::uint
     }
 }
 
-/// The ray length after which a miss is certain or negligible; more steps would be wasted. Whatever an unbounded
-/// field has beyond the horizon is seen edge-on and covers less than 1/horizon of the hemisphere.
+/// The length at which rays end: beyond it, a hit is impossible or negligible, and more steps would be wasted. Surfaces
+/// of an unbounded field beyond the horizon are seen edge-on and cover less than 1/horizon of the hemisphere.
 template <Field F>
 float longest_ray(const F& field, float radius) {
     constexpr float horizon = 100.0f;
@@ -83,9 +83,9 @@ float longest_ray(const F& field, float radius) {
 ///     cosine-weighted: ao = 1/N Σ V(ω_i)        uniform: ao = 2/N Σ V(ω_i) cos θ_i
 ///
 /// V = 0 if the ray hits the surface within the radius, else 1. The bent normal is the normalised mean of the open
-/// directions, weighted by cos θ in both forms. Rays start where the distance is a tenth of a voxel, or the
-/// ray_offset() in analytic fields; see also hit_walls_passed(). Source: lecture notes (aolecture). Cost: 1 to 6 map()
-/// calls per surfel, plus 5–20 per ray.
+/// directions, weighted by cos θ in both forms. Rays start where the distance to the surface is start_height(): a tenth
+/// of a voxel, or ray_offset() in analytic fields. See also hit_walls_passed(). Source: lecture notes (aolecture).
+/// Cost: 1 to 6 map() calls per surfel, plus 5–20 per ray.
 struct Traced {
     float radius = 0.1f; ///< > 0; may be infinite
     int rays = 64;       ///< per surfel, >= 1
@@ -123,7 +123,7 @@ struct Traced {
         options.two_sided = two_sided(field);
         SurfelBatch::Values heights;
         clear_of_surface(field, surfels, clearance, 2.0f * std::max(voxel, clearance), heights.data());
-        // Where a surfel was lifted, the walls of a crease are between half its height and its height away.
+        // If a surfel was lifted, the walls of its crease are between half its height and its whole height away.
         SurfelBatch::Values low;
         for (std::size_t i = 0; i < surfels.count; ++i)
             low[i] = heights[i] > clearance && std::isfinite(radius) ? 0.5f * heights[i] : 0.0f;

@@ -10,14 +10,13 @@ namespace alcove {
 ///
 ///     ao = clamp(1 − k Σ w_i (h_i − d(p + h_i n))),   k = 3, w_i = 0.95^i, h_i = 0.01 + 0.12 i/4, i = 0..4
 ///
-/// for a reference radius of 0.13. Other sample counts cover the same range of heights and weights, with the same
-/// sum of weights. The reference formula stops once the sum exceeds 0.35; this is omitted, because outside solids
-/// the sum never exceeds 0.303. The same probes behind the surface, with |d|, give an occlusion c of the inside;
-/// with o = 1 − ao, convexity = ½ + ½ (c − o). The bent normal is that of ring_bent_normal(), not part of the
-/// reference.
+/// for a reference radius of 0.13. Other sample counts cover the same range of heights and weights, with the same sum
+/// of weights. The reference formula stops once the sum exceeds 0.35; this is omitted, because outside solids the sum
+/// never exceeds 0.303. The same probes behind the surface, with |d|, give an occlusion c of the inside; with o = 1 −
+/// ao, convexity = ½ + ½ (c − o). The bent normal is that of ring_bent_normal(); it is not part of the reference.
 ///
-/// Exact on planes (ao 1, convexity ½) and convex shapes (ao 1). A solid thinner than two radii appears too convex,
-/// because its far side is near: a plate of 0.1, 0.5, 1 or 2 radii has a convexity of 0.58, 0.77, 0.76 or 0.5.
+/// Exact on planes (ao = 1, convexity = ½) and convex shapes (ao = 1). A solid thinner than two radii appears too
+/// convex, because its far side is near: a plate of 0.1, 0.5, 1 or 2 radii has a convexity of 0.58, 0.77, 0.76 or 0.5.
 /// Behind an open surface (Sign::sheet) the first voxel carries little information. Source: sdfao2026, after Evans
 /// (2006). Cost: `samples` map() calls per surfel; twice that with convexity, 4 more with the bent normal.
 struct Classic {

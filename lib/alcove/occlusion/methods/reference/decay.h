@@ -9,8 +9,8 @@ namespace alcove {
 ///     ao = Σ 2^(−i) d(p + h_i n) / Σ 2^(−i) h_i,   h_i = (i + 1) · radius/m,   i = 0..m − 1,   m = 5
 ///
 /// or, in its linear form, Σ d / Σ h; clamped to [0, 1]. Exact (1) on planes and convex shapes. Source: Zucconi (2016),
-/// where the linear form is Σ d divided by the radius: in the open, it exceeds 1 for m > 1. Cost: `samples` map() calls
-/// per surfel.
+/// where the linear form divides Σ d by the radius, so that it exceeds 1 in the open for m > 1. Cost: `samples` map()
+/// calls per surfel.
 struct Decay {
     float radius = 0.1f; ///< maximum probe distance, > 0
     int samples = 5;     ///< m, >= 1

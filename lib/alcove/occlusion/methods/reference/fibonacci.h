@@ -14,7 +14,8 @@ namespace alcove {
 ///
 /// for a reference radius of 0.11; ω_i = (cos φ sin θ, sin φ sin θ, z), φ = 2π fract(i/1.618…), z = cos θ = 1 − (2 i +
 /// 1)/n, flipped to the normal's side. Every surfel uses the same directions, in world axes or, with `surfel_frame`,
-/// turned to its normal. On an open plane, ao is 0.62–0.73. Source: sdfao2026. Cost: `samples` map() calls per surfel.
+/// relative to its normal. On an open plane, ao is 0.62–0.73. Source: sdfao2026. Cost: `samples` map() calls per
+/// surfel.
 struct Fibonacci {
     float radius = 0.1f;       ///< upper bound of the probe distances, > 0
     int samples = 32;          ///< n, >= 1

@@ -14,9 +14,9 @@ namespace alcove {
 ///
 /// for a reference radius of 1; ω_i = normalize(n + (1 − 1/n) v_i), v_i = (cos s, sin s, t)/√(1 + t²) flipped to the
 /// normal's side, s = 2π hash(l_i + 1), t = 2 hash(l_i + 2) − 1. With fewer samples the directions bend more toward the
-/// normal. The directions are the same for every surfel, in world axes or around its normal. On an open plane, ao is
-/// 0.90–0.95. Source: hemisphericalao, after Evans (2006), Quilez (2008) and Hart (1996). Cost: `samples` map() calls
-/// per surfel.
+/// normal. The directions are the same for every surfel, in world axes or, with `surfel_frame`, relative to its normal.
+/// On an open plane, ao is 0.90–0.95. Source: hemisphericalao, after Evans (2006), Quilez (2008) and Hart (1996). Cost:
+/// `samples` map() calls per surfel.
 struct Hemisphere {
     float radius = 0.1f;       ///< upper bound of the probe distances, > 0
     int samples = 32;          ///< n, >= 1; 16 are usable

@@ -11,9 +11,9 @@ namespace alcove {
 ///     ao = clamp(1/n Σ clamp(5 d(p + h_i ω_i)/h_i, −1, 1)),   h_i = 0.01 + 4 (i/(n − 1))²,   i = 0..n − 1, n = 32
 ///
 /// for a reference radius of 4.01; ω_i = (sin θ sin φ, sin θ cos φ, cos θ), (θ, φ) = hash2(seed + 13.1 i)·(3.14159,
-/// 6.2831), flipped to the normal's side. The directions are the same for every surfel, in world axes or around its
-/// normal. On an open plane the reference states 0.75–0.99; over all seeds and planes the range is 0.6–1, with a
-/// mean of 0.9. Source: sdfao2026. Cost: `samples` map() calls per surfel.
+/// 6.2831), flipped to the normal's side. The directions are the same for every surfel, in world axes or, with
+/// `surfel_frame`, relative to its normal. On an open plane the reference states 0.75–0.99; over all seeds and planes
+/// the range is 0.6–1, with a mean of 0.9. Source: sdfao2026. Cost: `samples` map() calls per surfel.
 struct HemisphereRandom {
     float radius = 0.1f;       ///< maximum probe distance, > 0
     int samples = 32;          ///< n, >= 2

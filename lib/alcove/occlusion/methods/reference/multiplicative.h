@@ -13,7 +13,7 @@ namespace alcove {
 struct Multiplicative {
     float radius = 0.1f;   ///< maximum probe distance, > 0
     int samples = 6;       ///< >= 1
-    float strength = 0.2f; ///< share of the light removed by a probe on the surface, in [0, 1]
+    float strength = 0.2f; ///< share of the light that a probe with d = 0 removes, in [0, 1]
 
     static constexpr std::string_view name = "multiplicative";
     static constexpr std::string_view summary = "probes along the normal, each removing a share of the remaining light";

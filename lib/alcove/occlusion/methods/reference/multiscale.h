@@ -1,4 +1,4 @@
-/// Probes along the normal at doubling heights, with separate short and long range.
+/// Probes along the normal at doubling heights, with separate values for short and long range.
 #pragma once
 
 #include "alcove/occlusion/detail/parameter.h"
