@@ -19,7 +19,7 @@ Vec3d perpendicular(const Vec3d& v, const Vec3d& axis) {
     return length > 1e-9 * glm::length(v) ? rest / length : Vec3d(0.0);
 }
 
-/// The direction that the front of a scene faces.
+/// The direction in which the front of a scene faces.
 Vec3d front_of(const Vec3d& up) {
     const Vec3d size = glm::abs(up);
     return size.z > size.x && size.z > size.y ? Vec3d(0.0, -1.0, 0.0) : Vec3d(0.0, 0.0, 1.0);
@@ -109,7 +109,7 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
 
     const Vec3d up = glm::normalize(options.up);
     const Vec3d toward_eye = three_quarter_view(up);
-    // This camera is at the origin and only gives the axes, because a distant target would lose precision.
+    // This camera looks at the origin and only provides the axes, which a distant target would make imprecise.
     const Camera orientation(toward_eye, Vec3d(0.0), up, options.fov, size);
     const double half_width = std::tan(0.5 * options.fov * std::numbers::pi / 180.0);
     Visibility horizontal((1.0 - 2.0 * margin) * half_width);
@@ -125,7 +125,7 @@ Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, 
     const double extent = frame_of(box).diagonal;
     if (points.empty())
         return Camera(target + 2.0 * toward_eye, target, up, options.fov, size);
-    // The eye is a little in front of the nearest point, even if all points are on the view axis.
+    // The eye stays a little in front of the nearest point, even if all points are on the view axis.
     const double depth = std::min({horizontal.depth(), vertical.depth(), nearest - 1e-2 * extent});
     Vec3d eye = target + depth * orientation.forward();
     Vec3d aim = target;

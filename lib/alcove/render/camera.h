@@ -44,8 +44,8 @@ class Camera {
 
     /// Unit direction of the ray through the pixel coordinates (x, y).
     Vec3d direction(double x, double y) const { return glm::normalize(corner_ + x * pixel_right_ + y * pixel_down_); }
-    /// (x, y, depth) of a point in front of the eye. (x, y) is outside [0, width] × [0, height] if the point is
-    /// outside the image.
+    /// (x, y, depth) of a point in front of the eye. (x, y) is outside [0, width] × [0, height] if the image does not
+    /// show the point.
     Vec3d project(const Vec3d& p) const;
 
     /// Left-handed: x right, y up, z forward; column vectors. The convention of OpenEXR's standard attributes.
@@ -56,15 +56,15 @@ class Camera {
 
   private:
     Vec3d eye_, right_, up_, forward_;
-    // Of the image plane at depth 1: half sizes, upper left corner relative to the eye, sides of a pixel.
+    // The image plane at depth 1: its half sizes, its upper left corner relative to the eye, and the sides of a pixel.
     double half_width_, half_height_;
     Vec3d corner_, pixel_right_, pixel_down_;
     ImageSize size_;
 };
 
-/// The camera of the options. By default it looks at the centre of the points, from above and in front in a
-/// three-quarter view, and from as near as possible with all points in the image and a margin of 5 %. The front is +z,
-/// or −y if up is nearer to z than to the other axes. Cost: linear in the points. \throw InputError as Camera().
+/// The camera that the options describe. By default it looks at the middle of the points from above and in front, in a
+/// three-quarter view, and is as near as possible with all points in the image and a margin of 5 %. The front is +z, or
+/// −y if `up` is nearer to z than to the other axes. Cost: linear in the points. \throw InputError as Camera().
 Camera make_camera(const CameraOptions& options, std::span<const Vec3d> points, ImageSize size);
 
 }

@@ -43,7 +43,7 @@ constexpr PassSet operator|(Pass a, Pass b) {
     return PassSet(a) | b;
 }
 
-// The channels that must be computed for a set of passes.
+// Which channels must be computed for a set of passes.
 constexpr bool need_ao(PassSet wanted) {
     return wanted.has(Pass::ao) || wanted.has(Pass::beauty);
 }
@@ -93,13 +93,14 @@ struct ImageHeader {
 
 enum class Precision { half, single };
 
-/// Writes the channels that passes.h lists, and A, with ZIP compression. Depth, normal, position, steps and object
-/// are always single precision. Writes the file completely or not at all. \throw IoError if it cannot be written.
+/// Writes the channels of the image's passes (PassInfo::channels), and A, with ZIP compression. Depth, normal,
+/// position, steps and object are always single precision. Writes the file completely or not at all. \throw IoError if
+/// it cannot be written.
 void write_exr(const Image& image, const std::filesystem::path& file, const ImageHeader& header,
                Precision precision = Precision::half);
 
 /// Encodes one pass of the image as PNG, eight bits per channel, without alpha. Beauty is sRGB over a light backdrop;
-/// ao and shadow are sRGB over white. The other passes except depth and steps are shown over the same backdrop:
+/// ao and shadow are sRGB over white. The other passes, except depth and steps, are also shown over the light backdrop:
 /// convexity unchanged, normals mapped from [−1, 1] to [0, 1], each coordinate of positions mapped from its range to
 /// [0, 1], and objects in one colour each. In depth, near surfaces are white, far ones dark grey, and the background is
 /// black. In steps, the highest count is white. \throw LimitError if the image is too large for a PNG.
@@ -119,7 +120,7 @@ struct ImageSummary {
     int width = 0;
     int height = 0;
     std::vector<Channel> channels;
-    std::vector<std::pair<std::string, std::string>> texts; ///< name and value, e.g. software and comments
+    std::vector<std::pair<std::string, std::string>> texts; ///< name and value, such as software and comments
 };
 
 /// Reads the header of an EXR or PNG, without the pixels. \throw InputError if the file is neither or cannot be

@@ -30,7 +30,7 @@ Vec3 color_of(float object) {
     return {channel(0.0f), channel(2.0f), channel(4.0f)};
 }
 
-/// The encoded colour of each pixel in a PNG, in [0, 1].
+/// Computes the encoded colour of each pixel of a PNG, in [0, 1].
 class PngPixels {
   public:
     PngPixels(const Image& image, Pass pass) : image_(image), pass_(pass) {

@@ -61,7 +61,7 @@ class Resolver {
     }
 
   private:
-    /// Applies the colour of the mesh as the part specifies.
+    /// Uses the colour of the mesh as ao, as reflectance, or not at all, as the part specifies.
     static void apply(const Vec3& color, const Part& part, Place& place) {
         if (part.painted)
             place.painted = (color.x + color.y + color.z) / 3.0f;

@@ -1,4 +1,4 @@
-/// Renders a field: sphere-traced camera rays, shaded with ambient occlusion.
+/// Renders a field with sphere-traced camera rays, shaded with ambient occlusion.
 ///
 /// Every sample that hits the surface becomes a surfel, and the estimators evaluate these surfels as they do the
 /// vertices of a mesh. The result does not depend on the number of threads.
@@ -27,7 +27,7 @@ namespace alcove {
 // Shading: pure functions in linear light. Source of all but srgb_encoded(): the lighting formulas of sdfao2026. n is
 // the normal, u = n·up, v the direction toward the eye; all vectors have unit length.
 
-/// The light that occlusion attenuates.
+/// Which light occlusion attenuates.
 enum class OcclusionUse {
     ambient,    ///< diffuse·shadow + ambient·ao
     everything, ///< (diffuse·shadow + ambient)·ao
@@ -35,7 +35,7 @@ enum class OcclusionUse {
 };
 
 /// A key light, the sky, and light reflected by the ground. Directions are scene directions of unit length; each colour
-/// is the light arriving at the surface named beside it.
+/// is the light that arrives at the surface described beside it.
 struct Lighting {
     Vec3 up{0.0f, 1.0f, 0.0f};         ///< toward the sky
     Vec3 toward_key{0.0f, 1.0f, 0.0f}; ///< toward the key light
@@ -68,12 +68,12 @@ inline float sky_visibility(float upward) {
     return 0.5f + 0.5f * upward;
 }
 
-/// The share of the light reflected by the ground: clamp(−u) ao.
+/// The share of the light from the ground that arrives: clamp(−u) ao.
 inline float bounce(float upward, float ao) {
     return std::clamp(-upward, 0.0f, 1.0f) * ao;
 }
 
-/// The share of the subsurface light: 0.05 + 0.95 ao.
+/// The share of the subsurface light that remains: 0.05 + 0.95 ao.
 inline float subsurface(float ao) {
     return 0.05f + 0.95f * ao;
 }
@@ -90,7 +90,7 @@ inline float edge_share(float convexity) {
     return std::clamp(2.0f * convexity - 1.0f, 0.0f, 1.0f);
 }
 
-/// The shaded colour: all the terms above combined.
+/// The shaded colour: combines all the terms above.
 inline Vec3 shade(const Lighting& lighting, const Material& material, const Place& place) {
     const float ao = place.ao * material.occlusion * place.painted;
     const float upward = glm::dot(place.normal, lighting.up);
@@ -121,20 +121,20 @@ inline float srgb_encoded(float linear) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
 }
 
-/// The share of sunlight at a point p, marched along t toward the sun l with the distance d:
+/// The share of sunlight that arrives at a point p. A ray marches along t toward the sun l; d is the field:
 ///
 ///     min(1, min over t of sharpness·d(p + t l)/t), 0 if the ray hits the surface
 ///
-/// Source: sdfao2026, which marches t from 0.02 to 20 in a scene with a diagonal of 5.73. Lengths in unit space. A
-/// field carries no information within two voxels of the surface, so rays start at least that far away.
+/// Source: sdfao2026, which marches t from 0.02 to 20 in a scene with a diagonal of 5.73. Lengths in unit space. A grid
+/// carries no information within two voxels of the surface, so rays start at least that far away.
 struct SoftShadow {
     float sharpness = 8.0f; ///< > 0; larger values give harder edges
     float begin = 0.02f / 5.73f;
     float end = 20.0f / 5.73f;
 };
 
-/// One share of sunlight per surfel, in [0, 1]; 0 if it faces away from the sun, 1 if it has no normal. `toward_sun`
-/// has unit length. Thread-safe. Cost: 5–30 map() calls per surfel that faces the sun.
+/// One share of sunlight per surfel, in [0, 1]: 0 for surfels that face away from the sun, 1 for surfels without a
+/// normal. `toward_sun` has unit length. Thread-safe. Cost: 5–30 map() calls per surfel that faces the sun.
 std::vector<float> soft_shadows(std::span<const Surfel> surfels, const AnyField& field, const Vec3& toward_sun,
                                 const SoftShadow& shadow = {});
 
@@ -162,7 +162,7 @@ struct Part {
     Material material{};
     bool colored = false;      ///< the colours of the mesh replace the colour of the material
     bool painted = false;      ///< the brightness of the colours of the mesh multiplies ao
-    bool on_triangles = false; ///< the triangles are the only surface: where only the field extends, nothing is shown
+    bool on_triangles = false; ///< the triangles are the only surface: where only the field is met, nothing is shown
 };
 
 /// A plane, visible from its front only, that fades into the background.
@@ -185,7 +185,7 @@ struct Renderable {
     /// Triangles of all or some of the parts; null if not needed.
     std::shared_ptr<const RenderableMesh> mesh{};
 
-    /// All occluders: the field and the grounds.
+    /// All occluders: the union of the field and the grounds.
     AnyField surroundings() const;
 };
 
@@ -198,7 +198,7 @@ bool has_edge_colors(const Renderable& renderable);
 /// The ground whose number is `object`, or null if `object` is a part.
 const Ground* ground_of(const Renderable& renderable, ObjectId object);
 
-/// The cells that the surface of a field passes through, to aim a camera at.
+/// The cells that the surface of a field passes through, for aiming a camera.
 struct Outline {
     std::vector<Vec3d> points; ///< centres of the cells, scene units
     Box box;                   ///< around the cells, scene units
@@ -210,7 +210,7 @@ Outline outline(const AnyField& field, const Frame& frame);
 
 struct ImageMethod; // an occlusion method for rendered images only (render/detail/image_method.h)
 
-/// Fewer probes for distant surfels. Source: sdfao2026, which goes from 5 to 2 over 50 units.
+/// Fewer probes for distant surfels. Source: sdfao2026, where the number falls from 5 to 2 over 50 units.
 struct FewerSamples {
     int far_samples = 2;   ///< samples at `distance` and beyond, >= 1
     float distance = 0.0f; ///< from the eye, unit space, > 0
@@ -222,9 +222,10 @@ struct RenderOptions {
     /// Occlusion estimator; if null, ao is 1 everywhere.
     const Method* method = nullptr;
     Settings settings{};
-    /// Replaces `method` if set, with the same settings.
+    /// If set, replaces `method` and uses the same settings.
     const ImageMethod* image_method = nullptr;
-    /// For a method with a parameter `samples`: its value at the eye is in `settings`, and decreases with distance.
+    /// For methods with a parameter `samples`: if set, the number of samples is that of `settings` at the eye, and
+    /// falls with the distance from it.
     std::optional<FewerSamples> fewer{};
     Lighting lighting{};
     SoftShadow shadow{};              ///< of the key light
@@ -232,15 +233,15 @@ struct RenderOptions {
     PassSet passes = standard_passes; ///< passes to render; values that none of them needs are not computed
 };
 
-/// A key light from the upper left, in front of the target of the camera, and a sky in direction `up`.
+/// A key light from the upper left, on the camera's side of its target, and a sky in direction `up`.
 Lighting studio_lighting(const Camera& camera, const Vec3d& up);
 
 /// The number of probes at `distance` from the eye (unit space), interpolated linearly between `near_samples` and
 /// `fewer.far_samples`.
 int samples_at(float distance, int near_samples, const FewerSamples& fewer);
 
-/// Renders in regions of 262,144 samples, so it needs the memory of the image plus about 100 MB. All values are
-/// finite. Cost: the camera rays (detail/camera_rays.h), plus the estimator once per sample that hits.
+/// Renders in regions of 262,144 samples, and so needs only about 100 MB besides the image. All values are finite.
+/// Cost: the camera rays (detail/camera_rays.h), plus the estimator once per sample that hits.
 Image render(const Renderable& renderable, const Camera& camera, const RenderOptions& options,
              const Progress& progress = {});
 

@@ -9,24 +9,25 @@
 namespace alcove {
 namespace {
 
-/// Distance, in voxels, from a hit to the probes for the local slope, and to the point from which the ray continues.
+/// Distance, in voxels, from a hit to the probes that measure the local slope, and to the point where the ray
+/// continues.
 constexpr float nearness = 0.1f;
 
 /// Over-relaxation of the steps: a tenth faster on planes seen at a grazing angle, a twentieth slower elsewhere.
 constexpr float relaxation = 1.4f;
 
-/// Apart from interpolation errors, a distance changes no faster than the position. A steeper change is a jump, whose
-/// zero is not a surface.
+/// Apart from interpolation errors, a distance changes no faster than the position. A steeper change is a jump, and a
+/// zero crossing inside it is not a surface.
 constexpr float max_slope = 1.15f;
 
 /// If the slope is below min_slope, or if the cosine between the gradients at a hit and a little in front of it is
 /// below min_agreement, the hit is on a crease or inside a jump.
 constexpr float min_slope = 0.8f, min_agreement = 0.97f;
 
-/// Maximum distance in voxels between the zero inside a jump and the face in front of it.
+/// Largest distance, in voxels, between the zero crossing inside a jump and the face in front of it.
 constexpr float max_jump = 1.5f;
 
-/// The range of a ray inside a box.
+/// The part of a ray that is inside a box.
 struct Span {
     double enter = 0.0, leave = std::numeric_limits<double>::infinity();
 
@@ -52,8 +53,8 @@ Vec3 normalized(const Vec3& v) {
     return length > 0.0f ? v / length : Vec3(0.0f);
 }
 
-/// The unit normal on the eye's side. A normal that points away is mirrored in the plane perpendicular to the ray. This
-/// is continuous at silhouettes, where smoothing tilts normals away.
+/// The unit normal on the eye's side. A normal that points away is mirrored in the plane perpendicular to the ray.
+/// Unlike a change of sign, this is continuous at silhouettes, where smoothing tilts normals away.
 Vec3 facing(const Vec3& gradient, const Vec3& direction) {
     const float length = glm::length(gradient);
     if (!(length > 0.0f) || !std::isfinite(length))
@@ -73,7 +74,7 @@ RayPrecision::RayPrecision(float resolution)
 CameraRays::CameraRays(const Renderable& renderable, const Camera& camera, int samples)
     : renderable_(renderable), field_(renderable.field), camera_(camera), frame_(renderable.frame),
       precision_(resolution(renderable.field)), two_sided_(two_sided(renderable.field)) {
-    // Keeps steps sized for a coarse part from skipping a finer one.
+    // Steps sized for a coarse part must not skip a finer part.
     for (const Part& part : renderable.parts)
         precision_.shortest_step = std::min(precision_.shortest_step, std::max(0.1f * resolution(part.field), 1e-4f));
     eye_ = (camera.eye() - frame_.center) / frame_.diagonal;
@@ -191,7 +192,7 @@ void CameraRays::flush(Batch& rays, Hits& hits) const {
         name_parts({owner.data(), count}, hits);
 }
 
-/// Sets the object of each hit of the field to the part with the nearest surface. Takes at most one batch of hits.
+/// Sets the object of each hit of the field to the part whose surface is nearest. Takes at most one batch of hits.
 void CameraRays::name_parts(std::span<const std::size_t> hit_indices, Hits& hits) const {
     Places places;
     std::array<std::size_t, RayBatch::capacity> owner;
@@ -230,7 +231,8 @@ void CameraRays::meet(Batch& rays, Hits& hits) const {
         rays = meet_two_sided(rays, attempt == attempts, hits);
 }
 
-/// Sets the hits, each refined with the part whose surface is nearest, because other parts may be coarser.
+/// Sets the hits. Refines each hit with the field of the part whose surface is nearest, because other parts may be
+/// coarser.
 void CameraRays::meet_parts(Batch& met, Hits& hits) const {
     const std::size_t parts = renderable_.parts.size();
     const Places all = places(met);
@@ -261,16 +263,16 @@ void CameraRays::meet_parts(Batch& met, Hits& hits) const {
     }
 }
 
-/// Sets the hits and returns the rays to trace further: for a ray from behind a sheet, distances jump before it reaches
-/// the face. A hit that is clearly a jump is skipped. A hit that may be a jump is kept, unless the ray leaves a face
-/// right behind the hit.
+/// Sets the hits and returns the rays to trace further: along a ray from behind a sheet, distances jump before the ray
+/// reaches the face. A hit that is clearly a jump is skipped. A hit that may be a jump is kept, unless the ray
+/// certainly meets a face from behind a short distance further on.
 CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits) const {
     const Batch met = traced(rays, hits);
     const float voxel = precision_.voxel, near = nearness * voxel;
     const Values error = distances(places(met));
     const Gradients slope = differences(field_, places(met), near);
-    // Distances are valid in the cells of a face. Differences around a point on the face would reach behind these
-    // cells.
+    // Distances are valid only in the cells around a face. Central differences at a point on the face would reach
+    // behind these cells.
     Places in_front;
     for (std::size_t i = 0; i < met.count; ++i)
         in_front.add(met.place(i) + precision_.difference * normalized(slope[i]));
@@ -289,7 +291,7 @@ CameraRays::Batch CameraRays::meet_two_sided(Batch& rays, bool last, Hits& hits)
         const bool smooth =
             glm::length(slope[i]) > min_slope * 2.0f * near && glm::dot(normalized(slope[i]), normal) > min_agreement;
         const bool uncertain = !smooth || std::fabs(error[i]) > 0.5f * near;
-        // Only a smooth surface can tilt away at a silhouette.
+        // Only the normal of a smooth surface can tilt away at a silhouette.
         const bool behind = (smooth ? glm::dot(slope[i], met.direction(i)) : along) > 0.0f;
         const ObjectId previous = hits.objects[met.owner[i]];
         if (previous != 1 || (!uncertain && behind))
@@ -322,7 +324,7 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
             met.add(rays, i, rays.travelled[i], 0.0f);
         }
 
-    // Seen from behind, distances grow along the ray.
+    // Where a ray meets a face from behind, distances grow along the ray.
     Values sign;
     sign.fill(1.0f);
     if (two_sided_) {
@@ -340,7 +342,7 @@ CameraRays::Batch CameraRays::traced(Batch& rays, Hits& hits) const {
     return met;
 }
 
-/// Sets a hit of a field, moved onto a sharp edge if there is one; not needed if hits are snapped to triangles anyway.
+/// Sets a hit of a field. Moves it onto a sharp edge if there is one, unless snap() will move it onto triangles anyway.
 /// `gradient` is the result of differences().
 void CameraRays::set_sharpened(const AnyField& field, Batch& met, std::size_t i, const Vec3& gradient, ObjectId object,
                                Hits& hits) const {

@@ -17,7 +17,7 @@ struct PixelRegion {
     int width = 0, height = 0;
 
     std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
-    /// Number of squares with the given side that cover the region. Squares at the right and lower edge are cut.
+    /// The number of squares of side `side` that cover the region. Squares at the right and lower edges are cut off.
     std::size_t tiles(int side) const {
         return static_cast<std::size_t>((width + side - 1) / side) *
                static_cast<std::size_t>((height + side - 1) / side);
@@ -44,10 +44,10 @@ struct Hits {
 /// Tolerances in unit space, derived from the resolution of a field.
 struct RayPrecision {
     float voxel;         ///< 0 for analytic fields
-    float hit_distance;  ///< distance that counts as a hit in two-sided fields; others are hit where the sign changes
+    float hit_distance;  ///< distance of a hit in two-sided fields; in other fields, the sign must change
     float shortest_step; ///< shortest step of a ray
     float difference;    ///< half width of the central differences for normals
-    float slack;         ///< margin around the box: behind a sheet, distances jump up to two voxels off its faces
+    float slack;         ///< margin around the box: behind a sheet, distances jump up to two voxels from it
 
     explicit RayPrecision(float resolution);
 };
@@ -58,8 +58,8 @@ struct RayPrecision {
 /// The surface is the zero crossing of the field, located to within a voxel at edges, and to within a hundredth of a
 /// voxel away from edges and outlines. Normals are central differences of the part that is hit, mirrored toward the eye
 /// if they point away. In a two-sided field they are evaluated in front of the face, whichever side is seen, because
-/// distances jump behind it. Grounds are intersected exactly. Keeps references to both arguments. `const` use is
-/// thread-safe.
+/// distances jump behind it. Grounds are intersected exactly. Keeps references to `renderable` and `camera`. `const`
+/// use is thread-safe.
 class CameraRays {
   public:
     CameraRays(const Renderable& renderable, const Camera& camera, int samples);
@@ -73,7 +73,7 @@ class CameraRays {
     /// grazing angle.
     void trace(const PixelRegion& region, std::size_t begin, std::size_t end, Hits& hits) const;
 
-    /// Makes a sample show the ground on the ray from the eye, or the background.
+    /// Sets a sample to the ground that the ray from the eye meets, or to the background.
     void set_background(const Vec3d& ray, std::size_t at, Hits& hits) const;
 
     const Camera& camera() const { return camera_; }
@@ -89,7 +89,7 @@ class CameraRays {
             owner[count] = index;
             push_back({origin, direction}, start);
         }
-        /// Adds ray `i` of another batch, with its origin moved ahead by `ahead`. `start` is the length travelled,
+        /// Adds ray `i` of another batch and moves its origin ahead by `ahead`. `start` is the length travelled,
         /// measured from the old origin.
         void add(const Batch& other, std::size_t i, float start, float ahead) {
             add(other.origin(i) + ahead * other.direction(i), other.direction(i), start - ahead,

@@ -14,9 +14,9 @@ struct Cone {
     double travelled; ///< in: a length before which no ray hits anything; out: the largest such length found
 };
 
-/// Advances the cones (Amanatides 1984) by sphere tracing (Hart 1996) while the field minus `margin` exceeds their
-/// width. Cones that pass `far` hit nothing and end at a value of at least `far`. Unit space. Cost: up to 48 map()
-/// calls per cone.
+/// Advances the cones (Amanatides 1984) by sphere tracing (Hart 1996) while the field minus `margin` clearly exceeds
+/// their radius. Cones that reach `far` hit nothing, and their `travelled` is then at least `far`. Unit space. Cost: up
+/// to 48 map() calls per cone.
 void march_cones(const AnyField& field, const Vec3d& eye, std::span<Cone> cones, double far, float margin);
 
 }

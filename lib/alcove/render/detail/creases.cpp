@@ -25,12 +25,12 @@ constexpr float bend_reach = 1.5f, min_bend = 0.15f;
 /// crosses.
 constexpr float side_reach = 2.25f;
 
-/// Half width of the central differences, in voxels. Tolerance of the gradient length, which is 1 where all distances
-/// nearby are distances to one plane.
+/// The half width of the central differences, in voxels, and the tolerance of the gradient length, which is 1 where all
+/// nearby distances are distances to one plane.
 constexpr float difference = 0.25f, flatness = 0.002f;
 
-/// Largest cosine between the normals of two sides; smallest cosine between the normals of one side; largest error of
-/// the planes at a sample, in voxels.
+/// The largest cosine between the normals of two sides, the smallest cosine between normals of the same side, and the
+/// largest error of the planes at a sample, in voxels.
 constexpr float max_turn_cosine = 0.9f, same_side = 0.995f, misfit = 0.05f;
 
 /// Largest move of a hit along its ray, voxels.
@@ -43,7 +43,7 @@ struct Side {
     float distance(const Vec3& p) const { return glm::dot(normal, p) - offset; }
 };
 
-/// The field at a point, given relative to the hit.
+/// The field at a point `place`, relative to the hit.
 struct Sample {
     Vec3 place, gradient;
     float distance;
@@ -118,8 +118,8 @@ class Crease {
 
 constexpr std::size_t first_directions = 4, all_directions = 14;
 
-/// Directions to the corners and faces of a cube. The first four are the corners of a tetrahedron: near an edge, at
-/// least two of them are above its sides.
+/// Directions to the corners and faces of a cube. The first four point to the corners of a tetrahedron: near an edge,
+/// at least two of them point above its sides.
 std::array<Vec3, all_directions> around() {
     std::array<Vec3, all_directions> directions;
     std::size_t count = 0;
@@ -159,7 +159,8 @@ std::vector<Sample> sample(const AnyField& field, const Vec3& hit, std::span<con
     return samples;
 }
 
-/// Whether the ray passed a bend before the hit: whether the field there differed from the distance to the hit's plane.
+/// Whether the ray passed a bend before the hit: whether the field in front of the hit differs from the distance to the
+/// tangent plane of the hit.
 bool passed_a_bend(const AnyField& field, const Vec3& hit, const Vec3& direction, float approach, float voxel) {
     const float reach = bend_reach * voxel;
     return std::fabs(field.map(hit - reach * direction) - reach * approach) > min_bend * voxel;

@@ -10,7 +10,7 @@
 namespace alcove {
 
 void check_memory(const DecodedImage& image, const std::string& name) {
-    constexpr double bytes_per_value = 6.0; // as read, as numbers, and the coefficients of a progressive JPEG
+    constexpr double bytes_per_value = 6.0; // 2 as read, 2 as a number, 2 for the coefficients of a progressive JPEG
     const double bytes = bytes_per_value * image.channels * image.width * image.height;
     if (bytes > memory_limit())
         throw LimitError(fmt::format("{}: {} x {} pixels take about {}, more than the limit of {}: use a smaller "

@@ -1,4 +1,4 @@
-/// Decodes PNG and JPEG images in memory as data: without colour spaces, and with the memory checked first.
+/// Decodes PNG and JPEG images in memory as data: ignores colour spaces, and checks the memory first.
 #pragma once
 
 #include <cstdint>

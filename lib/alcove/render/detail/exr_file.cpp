@@ -60,7 +60,7 @@ void write_exr_file(int width, int height, std::span<const ExrChannel> channels,
                     bool has_camera, const std::filesystem::path& file) {
     Imf::Header header(width, height, 1.0f, Imath::V2f(0.0f), static_cast<float>(description.screen_window_width),
                        Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
-    // Takes a third of the time of the default level, for files that are a twentieth larger.
+    // This level takes a third of the time of the default level, and its files are a twentieth larger.
     header.zipCompressionLevel() = 2;
     if (has_camera) {
         Imf::addWorldToCamera(header, row_vectors(description.world_to_camera));
@@ -78,7 +78,7 @@ void write_exr_file(int width, int height, std::span<const ExrChannel> channels,
         buffer.insert(name, Imf::Slice(type, base, stride, stride * columns));
     };
     std::deque<std::vector<Imath::half>> halves; // a deque keeps their addresses stable
-    const ExrChannel* converted = nullptr;       // channels with the same values share one conversion
+    const ExrChannel* converted = nullptr;       // successive channels with the same values share one
     for (const ExrChannel& channel : channels)
         if (channel.precision == Precision::single) {
             insert(channel.name, Imf::FLOAT, channel.values, channel.step * sizeof(float));

@@ -7,13 +7,13 @@
 namespace alcove {
 namespace {
 
-/// The settings with another number of samples.
+/// The settings with the number of samples replaced.
 Settings with_samples(Settings settings, int samples) {
     settings.parameters.emplace_back("samples", samples);
     return settings;
 }
 
-/// The value of a parameter: from the settings, else the method's default.
+/// The value of a parameter: from the settings if they contain it, otherwise the method's default.
 int parameter(const Method& method, const Settings& settings, std::string_view name) {
     double value = 0.0;
     for (const ParameterInfo& info : method.parameters())

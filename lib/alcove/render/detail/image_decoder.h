@@ -5,7 +5,7 @@
 
 namespace alcove {
 
-/// Checks the memory for decoding an image. \throw LimitError if it exceeds the limit.
+/// Checks the memory that decoding an image takes. \throw LimitError if it is more than memory_limit().
 void check_memory(const DecodedImage& image, const std::string& name);
 
 bool is_png(std::string_view bytes);

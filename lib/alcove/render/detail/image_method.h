@@ -1,4 +1,4 @@
-/// Occlusion methods that work on rendered images only: one value per pixel, which depends on the camera.
+/// Occlusion methods that give one value per pixel of a rendered image, so that the values depend on the camera.
 #pragma once
 
 #include "alcove/occlusion/catalog.h"

@@ -30,7 +30,7 @@ struct Decoder {
     std::longjmp(decoder.failed, 1);
 }
 
-/// Fails if an image ends too early: libjpeg only warns, and the image would be grey from there on.
+/// Fails if an image ends too early: libjpeg only warns, and would leave the rest of the image grey.
 void take_warning(j_common_ptr jpeg, int level) {
     const int code = jpeg->err->msg_code;
     if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER))

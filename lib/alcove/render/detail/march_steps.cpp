@@ -12,7 +12,8 @@ std::vector<float> MarchSteps::operator()(const Renderable& renderable, const Ca
     const Vec3d eye = (camera.eye() - renderable.frame.center) / renderable.frame.diagonal;
     const auto width = static_cast<std::size_t>(camera.size().width);
     std::vector<float> ao(width * static_cast<std::size_t>(camera.size().height));
-    // Nothing is rendered beyond the horizon. Rays from a more distant eye start there, to preserve single precision.
+    // Nothing farther than the horizon from the origin is rendered. If the eye is farther away, rays start about there,
+    // so that single precision suffices.
     constexpr double horizon = 100.0;
     const double before = std::max(0.0, glm::length(eye) - horizon);
     parallel_for(ao.size(), 16 * RayBatch::capacity, [&](std::size_t begin, std::size_t end) {

@@ -13,9 +13,9 @@ namespace alcove {
 
 ///     1 - steps/(max_steps - 1)
 ///
-/// for the steps of plain sphere tracing, which stops at a distance of a twentieth of a voxel. In analytic fields it
-/// stops at 1/5000 of the diagonal, which is 0.001 in the reference scene. Source: Zucconi (2016). Thread-safe. Cost:
-/// up to max_steps map() calls per pixel, which a plain sphere tracer would spend on the image anyway.
+/// for the steps of plain sphere tracing, which stops at a distance of a twentieth of a voxel, but at least 1/5000 of
+/// the diagonal (0.001 in the reference scene). Source: Zucconi (2016). Thread-safe. Cost: up to max_steps map() calls
+/// per pixel, which a plain sphere tracer spends on the image anyway.
 struct MarchSteps {
     float radius = 0.0f; ///< unused
     int max_steps = 128; ///< >= 2

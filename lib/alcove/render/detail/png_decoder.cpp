@@ -40,7 +40,7 @@ bool read_header(Decoder& decoder, png_structp png, png_infop info) {
         return false;
     png_set_read_fn(png, &decoder, give_bytes);
     png_read_info(png, info);
-    png_set_expand(png); // palettes, fewer than 8 bits, and transparent colours
+    png_set_expand(png); // expands palettes, fewer than 8 bits, and transparent colours
     png_set_gray_to_rgb(png);
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
@@ -58,7 +58,7 @@ bool read_rows(Decoder& decoder, png_structp png) {
     return true;
 }
 
-/// libpng's structures for reading, freed at the end.
+/// libpng's structures for reading, freed by the destructor.
 struct Reader {
     explicit Reader(Decoder& decoder)
         : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, take_failure, ignore)),

@@ -40,7 +40,8 @@ bool encode(Encoder& encoder, png_structp png, png_infop info, int width, int he
     png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
                  color_types[static_cast<std::size_t>(channels) - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    // Measured on maps: takes a third of the time of libpng's defaults at level 3, and makes smaller files.
+    // Measured on maps: this filter and strategy take a third of the time of libpng's defaults at level 3, and give
+    // smaller files.
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_strategy(png, Z_RLE);
     png_set_text(png, info, encoder.texts.data(), static_cast<int>(encoder.texts.size()));

@@ -36,7 +36,7 @@ class Kernel {
     }
 
   private:
-    /// Whether a surface nearer to the eye than q, by less than the radius, hides q.
+    /// Whether q is hidden by a surface that is nearer to the eye, but by less than the radius.
     bool hidden(const Vec3d& q) const {
         const Vec3d place = seen_.camera.project(seen_.camera.eye() + q);
         if (!(place.z > 0.0 && place.x >= 0.0 && place.y >= 0.0 && place.x < static_cast<double>(seen_.width()) &&
@@ -71,7 +71,7 @@ class Smoother {
   public:
     Smoother(const ScreenSpace& method, const DepthBuffer& seen, double radius)
         : seen_(seen), bilateral_(static_cast<Blur>(method.blur) == Blur::bilateral),
-          // Further than a tenth of the radius from the tangent plane, a point is probably on another surface.
+          // A point farther than a tenth of the radius from the tangent plane is probably on another surface.
           height_(0.1f * static_cast<float>(radius)),
           reach_(method.blur_reach *
                  static_cast<float>(radius * static_cast<double>(seen.width()) / seen.camera.screen_window_width())),
@@ -109,7 +109,7 @@ class Smoother {
     }
 
   private:
-    /// `away` is the distance between the pixels in standard deviations; the reach is two of them.
+    /// `away` is the distance between the pixels in standard deviations; the reach is two standard deviations.
     float weight_of(float away, std::size_t pixel, std::size_t other) const {
         if (!bilateral_)
             return std::exp(-0.5f * away * away);

@@ -11,11 +11,11 @@
 
 namespace alcove {
 
-/// The filter against the noise of few samples.
+/// The filter that removes the noise of few samples.
 enum class Blur {
     none,
     gaussian,  ///< exp(-s²/2σ²), for a distance s between pixels
-    bilateral, ///< times exp(-h²/2τ²), h the height of the other point above the tangent plane, and max(0, n·n')⁴
+    bilateral, ///< that times exp(-h²/2τ²) max(0, n·n')⁴, h the height of the other point above the tangent plane
 };
 
 /// For the point p with normal n that a pixel shows, in scene units:
@@ -23,17 +23,17 @@ enum class Blur {
 ///     1 - 1/N Σ [the pixel of q_i shows a point nearer to the eye than q_i, by less than the radius],
 ///     q_i = p + r_i·dir_i, dir_i·n > sin(bias)
 ///
-/// over cosine-weighted directions, rotated per pixel to avoid banding, with jittered r_i = radius·√u. This places more
-/// samples far out, where a sample is behind its occluder. The visible surface is taken as the tangent plane of its
-/// pixel, so that a plane does not occlude itself.
+/// over cosine-weighted directions, rotated per pixel to avoid banding, with jittered r_i = radius·√u. The square root
+/// places more samples far out, where a sample is more likely to be behind an occluder. Each pixel is taken to show its
+/// tangent plane, so that a plane does not occlude itself.
 ///
 /// Source: lecture notes (aolecture) for the hemisphere kernel, range and angle checks, rotation and blur; Tomasi and
-/// Manduchi (1998) for the bilateral weights, with τ a tenth of the radius. Thread-safe. Cost: N look-ups per pixel;
-/// a blur adds four times its reach.
+/// Manduchi (1998) for the bilateral weights, with τ a tenth of the radius. Thread-safe. Cost: N look-ups per pixel; a
+/// blur adds four times its reach in pixels.
 struct ScreenSpace {
     float radius = 0.1f;       ///< unit space, > 0
     int samples = 16;          ///< N
-    float bias = 5.0f;         ///< excluded angle above the tangent plane, degrees
+    float bias = 5.0f;         ///< samples within this angle of the tangent plane are excluded; degrees
     int blur = 2;              ///< a Blur
     float blur_reach = 0.125f; ///< relative to the projected radius; clamped to 1 to 64 pixels
 

@@ -74,7 +74,7 @@ class Snapper {
     }
 
   private:
-    /// Adds the ray of a sample, starting in front of its hit.
+    /// Adds the ray of a sample; the ray starts in front of the hit.
     void start(std::size_t sample) {
         const Vec3 direction(glm::normalize(Vec3d(hits_.surfels[sample].position) - eye_));
         owner_[rays_.count] = sample;
@@ -85,7 +85,7 @@ class Snapper {
         return !renderable_.parts.empty() && renderable_.parts[hits_.objects[sample] - 1u].on_triangles;
     }
 
-    /// Sets the samples of the batch to the next triangle or the ground on their rays, and empties the batch.
+    /// Sets each sample of the batch to the next triangle or ground on its ray, and empties the batch.
     void look_further() {
         renderable_.mesh->surface.find_nearest(rays_, std::numeric_limits<float>::infinity(), places_);
         for (std::size_t i = 0; i < rays_.count; ++i) {
@@ -107,7 +107,7 @@ class Snapper {
         rays_.count = 0;
     }
 
-    /// The depth of a distance along a ray, scene units.
+    /// The depth, in scene units, that corresponds to a distance along a ray.
     float depth_of(float distance, const Vec3& direction) const {
         return static_cast<float>(double(distance) * renderable_.frame.diagonal *
                                   glm::dot(Vec3d(direction), camera_rays_.camera().forward()));

@@ -19,7 +19,7 @@ Vec3d turned(const Vec3d& p, const Axis& axis, double degrees);
 /// The camera rotated about the axis.
 Camera turned(const Camera& camera, const Axis& axis, double degrees);
 
-/// Copies of the points rotated in steps of fifteen degrees: a camera that frames all of them frames the points at any
+/// Copies of the points, rotated in steps of fifteen degrees. A camera that frames all copies frames the points at any
 /// angle.
 std::vector<Vec3d> swept(std::span<const Vec3d> points, const Axis& axis);
 
