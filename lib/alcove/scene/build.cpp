@@ -17,7 +17,7 @@
 namespace alcove {
 namespace {
 
-// Measured: bytes per triangle for rays, including its corners, their normals and its share of the BVH.
+// Measured: bytes per triangle that rays may hit, for its corners, their normals and its share of the BVH.
 constexpr double bytes_per_ray_triangle = 300.0;
 
 Box box_around(const std::vector<LoadedShape>& shapes) {
@@ -35,7 +35,7 @@ double voxel_of(const LoadedShape& loaded) {
     return double(loaded.stack.levels.front().voxel) * loaded.stack.frame.diagonal * loaded.pose.scale;
 }
 
-/// The finest voxel that the scene or its level sets specify, unit space; 0 if none.
+/// The finest voxel that the scene or its level sets specify, unit space; 0 if they specify none.
 float named_voxel(const std::vector<LoadedShape>& shapes, const Frame& frame) {
     double finest = std::numeric_limits<double>::infinity();
     for_each_shape(shapes, [&](const LoadedShape& loaded) {
@@ -49,7 +49,7 @@ float named_voxel(const std::vector<LoadedShape>& shapes, const Frame& frame) {
     return std::isfinite(finest) ? static_cast<float>(finest / frame.diagonal) : 0.0f;
 }
 
-/// Adds the memory for the triangles of the meshes that are objects.
+/// Adds the memory that rays need for the triangles of meshes. Meshes that are only parts of objects need none.
 void add_ray_triangles(const std::vector<LoadedShape>& shapes, MemoryEstimate& memory) {
     for (const LoadedShape& loaded : shapes)
         if (const auto* mesh = std::get_if<MeshShape>(&loaded.object->shape))
@@ -102,8 +102,9 @@ bool has_edge_colors(const Scene& scene) {
                        [](const SceneObject& object) { return object.material.edge_color.has_value(); });
 }
 
-/// The height of the lowest point, scene units. Exact for analytic shapes and meshes. Otherwise, it is that of surface
-/// points whose spacing is 1/64 of the size of the shape. These miss a round bottom by a thousandth of the size.
+/// The height of the lowest point, scene units. Exact for analytic shapes and meshes. For other shapes, the height of
+/// the lowest of many surface points, whose spacing is 1/64 of the size of the shape. These points miss a round bottom
+/// by a thousandth of the size.
 double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& frame, const Vec3d& up) {
     if (const std::optional<double> height = support(loaded.object->shape, loaded.pose, -up))
         return -*height;
@@ -128,17 +129,18 @@ double lowest(const LoadedShape& loaded, const AnyField& field, const Frame& fra
 
 }
 
-/// Rays of guided per sample of a pixel. With four samples per pixel, the RMSE of the ao was 0.018, 0.012 and 0.007 at
-/// 1, 4 and 16 rays on a scan and on a part.
+/// The rays per sample of a pixel for the method guided. On a scan and on a part, with four samples per pixel, the RMSE
+/// of ao was 0.018, 0.012 and 0.007 at 1, 4 and 16 rays.
 int guided_rays(Quality quality) {
     return quality == Quality::draft ? 1 : quality == Quality::good ? 4 : 16;
 }
 
-/// Default rays per sample of the other methods. With four samples, a pixel gets as many rays as a vertex of a bake.
+/// The most rays per sample that a named method gets by default. With four samples, a pixel then gets as many rays as a
+/// vertex of a bake.
 constexpr int rays_per_sample = 16;
 
-/// The method of a scene. `make_triangles` takes one argument: whether shapes that are not meshes need triangles as
-/// well.
+/// The occlusion method of a scene. `make_triangles(all)` makes the triangles that the method needs; `all` is that of
+/// triangles_of().
 template <class MakeTriangles>
 MethodChoice choose_occlusion(const SceneOcclusion& occlusion, const MakeTriangles& make_triangles) {
     if (occlusion.is_planned())

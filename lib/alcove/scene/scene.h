@@ -23,7 +23,7 @@ struct Placement {
     double scale = 1.0;  ///< > 0
 };
 
-// The shapes, in scene units before placement. field/primitives.h defines them.
+// The shapes, in scene units, before placement. field/primitives.h defines their distances.
 struct SphereShape {
     Vec3d center{0.0};
     double radius = 1.0;
@@ -40,7 +40,7 @@ struct CapsuleShape {
     Vec3d start{0.0}, end{0.0, 1.0, 0.0};
     double radius = 0.5;
 };
-/// Solid below the plane.
+/// The half-space below the plane is solid.
 struct PlaneShape {
     Vec3d point{0.0};
     Vec3d normal{0.0, 1.0, 0.0}; ///< of any length but 0
@@ -49,13 +49,13 @@ struct MeshShape {
     std::filesystem::path file;
     std::optional<Length> voxel{}; ///< by default automatic; a percentage is of the mesh's own diagonal
     SignChoice sign = SignChoice::automatic;
-    bool own_normals = true; ///< use the normals of the mesh (corner_normals()), not those of the field
+    bool own_normals = true; ///< use the normals of the mesh (corner_normals()) instead of the field's
     bool painted = false;    ///< the brightness of its vertex colours multiplies the ao
-    /// Whether its own colours (own_colors()) replace the colour of the material. If unset, they do not, and a warning
-    /// says so.
+    /// Whether the mesh's own colours (own_colors()) replace the colour of the material. If unset, they do not, and a
+    /// warning says so.
     std::optional<bool> own_colors{};
-    std::optional<Length> weld{};    ///< joins vertices closer than this; a percentage is of the mesh's own diagonal
-    std::filesystem::path texture{}; ///< a .png or .exr that colours it by its UVs; empty: none. One per scene
+    std::optional<Length> weld{};    ///< join vertices closer than this; a percentage is of the mesh's own diagonal
+    std::filesystem::path texture{}; ///< a .png or .exr that colours the mesh by its UVs, one per scene; empty: none
 };
 /// A level set in a .vdb file.
 struct GridShape {
@@ -95,9 +95,10 @@ struct SceneLight {
 };
 
 struct SceneOcclusion {
-    /// Chooses a method and its rays if no method is named: guided, or traced for shapes without a zero isosurface.
+    /// If no method is named, chooses a method and its number of rays: guided, or traced if a shape has no zero
+    /// isosurface.
     std::optional<Quality> quality = Quality::good;
-    const Method* method = nullptr;             ///< null if no method is named, or an image method
+    const Method* method = nullptr;             ///< null if no method is named, or if an image method is
     const ImageMethod* image_method = nullptr;  ///< set only if `method` is null
     Length radius{0.1, Length::Unit::diagonal}; ///< a percentage is of the box around all bounded objects
     std::vector<std::pair<std::string, double>> parameters{};
@@ -139,22 +140,22 @@ struct BuiltScene {
     Renderable renderable;
     std::vector<Vec3d> points; ///< surface points of the bounded objects, to aim a camera at; scene units
     float radius = 0.0f;       ///< radius of occlusion, unit space
-    MethodChoice occlusion{};  ///< empty if no method is named, or an image method is
+    MethodChoice occlusion{};  ///< empty for "none" and for image methods
     double voxel = 0.0;        ///< largest of the objects' finest voxels, scene units; 0 without grids
     std::size_t levels = 0;    ///< largest number of levels of an object
     std::vector<std::string> warnings{};
 };
 
-/// Builds a scene for rendering. Unit space is that of the box around all bounded objects; a radius in % refers to its
-/// diagonal. Level sets with a smaller reach than occlusion and soft shadows need for `passes` are extended by
-/// extend_levels(). The ground is perpendicular to `up` of the scene's camera.
+/// Builds a scene for rendering. Unit space belongs to the box around all bounded objects; a radius in % refers to the
+/// diagonal of that box. Level sets with a smaller reach than occlusion and soft shadows need for `passes` are extended
+/// by extend_levels(). The ground is perpendicular to `up` of the scene's camera.
 ///
-/// \throw everything that read_mesh(), read_grids() and voxelize() throw. InputError also for an open surface in a
-/// difference or blended union, for a plane in a union or as the first part of a difference, and for an empty scene.
-/// These messages name the object and its file. LimitError as voxelize().
+/// \throw what read_mesh(), read_grids() and voxelize() throw; InputError also for an open surface in a difference or
+/// blended union, for a plane that is in a union or the first part of a difference, and for an empty scene. The
+/// messages name the object or its file.
 BuiltScene build_scene(const Scene& scene, PassSet passes = standard_passes, const Progress& progress = {});
 
-/// The options to render a built scene with. Named methods that trace rays use 16 per sample by default.
+/// The options for rendering a built scene. By default, named methods that trace rays use at most 16 rays per sample.
 RenderOptions rendering_of(const Scene& scene, const BuiltScene& built, const Camera& camera,
                            PassSet passes = standard_passes);
 

@@ -17,7 +17,7 @@
 namespace alcove {
 namespace {
 
-constexpr double brightest = 1e4; // light; the maximum of half precision is 65,504
+constexpr double brightest = 1e4; // largest value of a light; half precision ends at 65,504
 
 using Materials = std::map<std::string, Material>;
 

@@ -25,7 +25,7 @@ void add(Box& box, const Box& other) {
     box.add(other.max);
 }
 
-/// The box of the faces; vertices that no face uses do not count.
+/// The box of the vertices that faces use.
 Box box_of_faces(const LoadedMesh& file, const Pose& pose) {
     Box box;
     for (const Triangle& triangle : file.triangles)
@@ -128,7 +128,7 @@ class Loader {
         GridStack stack;
         Box box; // of its surface
     };
-    /// The file and the length of `weld`.
+    /// The file, and the value and unit of `weld`.
     using MeshKey = std::tuple<std::filesystem::path, double, Length::Unit>;
     static MeshKey key_of(const MeshShape& shape) {
         const Length weld = shape.weld.value_or(Length());

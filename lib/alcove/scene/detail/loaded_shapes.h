@@ -1,5 +1,5 @@
-/// Loads the files of the shapes of a scene, each once, and computes the boxes of the shapes. Grids are built later,
-/// because their voxels depend on the size of the whole scene.
+/// Loads the files that the shapes of a scene use, each file once, and computes the boxes of the shapes. Grids are
+/// built later, because their voxels depend on the size of the whole scene.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"
@@ -12,29 +12,28 @@
 
 namespace alcove {
 
-/// The data of a mesh file. Objects with the same file share it.
+/// The data of a mesh file. Shapes with the same file and weld share it.
 struct LoadedMesh {
     Mesh mesh;
     std::vector<Triangle> triangles;
-    std::optional<OwnColors> colors{}; ///< set if an object shows them
+    std::optional<OwnColors> colors{}; ///< set if an object shows its own colours
 };
 
 struct LoadedShape {
     const SceneObject* object;
     Pose pose;                                ///< maps the space of the shape to scene space
     Box box{};                                ///< scene units; empty for infinite shapes
-    float reach = 0.0f;                       ///< distances up to this must be correct, unit space of the scene
+    float reach = 0.0f;                       ///< distances must be correct up to this value, unit space of the scene
     bool inside = false;                      ///< whether distances inside must be correct as well
     std::shared_ptr<const LoadedMesh> mesh{}; ///< for mesh shapes
     GridStack stack{};                        ///< for level sets, and for meshes once voxelized
     std::vector<LoadedShape> parts{};         ///< for composites
-    std::vector<std::string> warnings{};      ///< the warnings of a file are only at the first shape that uses it
+    std::vector<std::string> warnings{};      ///< only the first shape that uses a file has its warnings
 };
 
 /// Loads the shapes of all objects. Keeps pointers to the objects. Adds the memory that the files need to the estimate
-/// `memory`. \throw everything that read_mesh() and read_grids() throw. InputError also for a plane in a union, or as
-/// the first part of a difference. These messages name the object or its file. LimitError if the files exceed the
-/// limit.
+/// `memory`. \throw what read_mesh() and read_grids() throw; InputError also for a plane that is in a union, or the
+/// first part of a difference; LimitError if the files exceed the limit. The messages name the object or its file.
 std::vector<LoadedShape> load_shapes(const Scene& scene, MemoryEstimate& memory);
 
 /// Calls `visit(loaded)` for every shape and, recursively, its parts.

@@ -41,11 +41,11 @@ std::vector<Surfel> points_on_faces(const LoadedShape& loaded, const Frame& own)
     return surfels;
 }
 
-/// The share of the surfels where the field is outside both above and below the surface. Checks both sides, because
-/// normals may be flipped.
+/// The share of the surfels where both sides of the surface are outside, according to the field. Checks both sides,
+/// because normals may be flipped.
 double share_without_inside(const std::vector<Surfel>& surfels, const LoadedShape& loaded, const Frame& own,
                             const AnyField& field, const Frame& frame) {
-    // Most edges are rounded by more than this depth, but walls of two voxels are intact there.
+    // Walls of two voxels are intact at this depth, although the field rounds most edges off by more.
     const float depth = 0.25f * static_cast<float>(loaded.stack.levels.front().voxel);
     const auto value = [&](const Surfel& surfel, float height) {
         return field.map(frame.to_unit(loaded.pose(own.to_scene(surfel.position + height * surfel.normal))));
@@ -76,8 +76,8 @@ std::string missing_walls(const LoadedShape& loaded, const AnyField& field, cons
         positions.push_back(own.to_unit(p));
     const RaySurface surface(positions, loaded.mesh->triangles);
     const ThinWalls walls = thin_walls(points, surface, voxel, false);
-    // Near an edge, the distance to the far side is proportional to the distance to the edge. So edges contribute half
-    // the share at half the voxel, and cancel out here.
+    // Near an edge, the distance to the far side is proportional to the distance to the edge. So at half the voxel,
+    // edges contribute half the share, and cancel out in this difference.
     const double share = std::abs(2.0 * thin_walls(points, surface, 0.5f * voxel, false).share - walls.share);
     if (share < noticeable)
         return {};

@@ -18,11 +18,11 @@ struct OwnColors {
 };
 
 /// The colours of the vertices of a mesh, else of its faces, else of the materials of an OBJ. All are taken as sRGB,
-/// the Kd of materials too, as most viewers do. Faces without a material get the default colour of materials. Vertex
-/// colours that are the ao of an earlier bake do not count.
+/// including the Kd of materials, as in most viewers. Faces without a material get the default colour of materials.
+/// Vertex colours that are the ao of an earlier bake are ignored.
 OwnColors own_colors(const Mesh& mesh);
 
-/// Whether the file has colours, or materials that may have some.
+/// Whether the file has colours, or materials that may have colours.
 bool may_have_colors(const Mesh& mesh);
 
 /// Linear light of an sRGB value in [0, 1] (srgb1999).

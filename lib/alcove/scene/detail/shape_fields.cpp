@@ -54,7 +54,8 @@ void set_reach(LoadedShape& loaded, float reach, bool inside, const Frame& frame
     const auto* shape = std::get_if<CompositeShape>(&loaded.object->shape);
     if (!shape)
         return;
-    // A blend needs distances up to its width beyond the requested reach; a subtracted part needs those inside.
+    // A blend needs distances up to its width beyond the requested reach. A subtracted part needs the distances inside
+    // it.
     const float width = blend_of(*shape, loaded, frame);
     const bool subtracts = shape->operation == CompositeShape::Operation::subtract;
     for (std::size_t i = 0; i < loaded.parts.size(); ++i)

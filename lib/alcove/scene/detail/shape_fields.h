@@ -8,13 +8,12 @@
 
 namespace alcove {
 
-/// Sets the distance up to which the fields of a shape and its parts must be correct: `reach`, in unit space. If
-/// `inside` is set, distances inside must be correct as well.
+/// Sets the distance `reach` (unit space) up to which the field of a shape must be correct, and the distances that its
+/// parts need for this. If `inside` is set, distances inside must be correct as well.
 void set_reach(LoadedShape& loaded, float reach, bool inside, const Frame& frame);
 
-/// The field of a shape in the unit space of `frame`. \throw everything that SharedGrids::field() throws. InputError
-/// also for an open surface in a difference or blended union. These messages name the object or its file. LimitError as
-/// voxelize().
+/// The field of a shape in the unit space of `frame`. \throw what SharedGrids::field() throws, and InputError for an
+/// open surface in a difference or blended union. The messages name the object or its file.
 AnyField field_of(LoadedShape& loaded, const Frame& frame, SharedGrids& grids);
 
 /// The plane of a PlaneShape, in unit space.

@@ -14,7 +14,7 @@ namespace {
 constexpr double kept = 0.4;
 // Measured: the field of a level set takes 1.5 times the memory of its OpenVDB grid, so 2.5 times with the grid.
 constexpr double bytes_over_grid = 2.5;
-// Measured: the memory of a level, however small it is.
+// Measured: the memory that even the smallest level takes.
 constexpr double bytes_per_level = 2e5;
 
 const MeshShape* mesh_of(const LoadedShape& loaded) {
@@ -25,7 +25,7 @@ const GridShape* grid_of(const LoadedShape& loaded) {
     return std::get_if<GridShape>(&loaded.object->shape);
 }
 
-/// Returns the result of `work`. Adds the name of the file to its messages.
+/// Returns the result of `work`. Adds the name of the file to the messages of its exceptions.
 template <class Work>
 decltype(auto) naming(const std::filesystem::path& file, const Work& work) {
     try {
@@ -43,7 +43,7 @@ SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridConte
     : context_(context), limit_(memory.limit()), limit_of_automatic_(memory.limit()) {
     std::vector<const LoadedShape*> automatic; // their voxels may get coarser
     double planned = 0.0;                      // bytes of the automatic grids
-    std::pair<double, std::string> largest{};  // bytes of the grid that takes most while it is built, and its file
+    std::pair<double, std::string> largest{};  // most bytes of a grid while it is built, and its file
     for_each_shape(shapes, [&](const LoadedShape& loaded) {
         if ((!mesh_of(loaded) && !grid_of(loaded)) || entries_[key_of(loaded)].users++ > 0)
             return;
@@ -66,7 +66,7 @@ SharedGrids::SharedGrids(const std::vector<LoadedShape>& shapes, const GridConte
         share_what_is_left(automatic, planned, memory);
 }
 
-/// Gives each grid with an automatic voxel an equal part of the memory that the rest of the scene leaves.
+/// Gives each grid with an automatic voxel an equal part of the memory that the rest of the scene leaves free.
 void SharedGrids::share_what_is_left(const std::vector<const LoadedShape*>& automatic, double planned,
                                      const MemoryEstimate& memory) {
     limit_of_automatic_ = (memory.left() + planned) / (kept * static_cast<double>(automatic.size()));
@@ -132,7 +132,8 @@ AnyField SharedGrids::field(LoadedShape& loaded) {
     }
     mesh_of(loaded) ? voxelize_mesh(loaded) : extend_grid(loaded);
     const bool is_placed = entry.users == 1 && pose.rotation == glm::dmat3(1.0);
-    // A field of one object without a rotation is placed as a grid, which avoids transforming every point.
+    // If only one object uses the field, and without a rotation, the grid itself is placed, which saves transforming
+    // every point.
     entry.field.emplace(is_placed ? reframed(loaded.stack, {(context_.frame.center - pose.translation) / pose.scale,
                                                             context_.frame.diagonal / pose.scale})
                                   : loaded.stack);

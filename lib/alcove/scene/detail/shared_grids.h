@@ -1,4 +1,4 @@
-/// The level sets of the mesh and .vdb files of a scene. Shapes with the same file and settings share one.
+/// The level sets of the mesh and .vdb files of a scene. Shapes with the same file and settings share a level set.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -21,18 +21,18 @@ struct GridContext {
 
 class SharedGrids {
   public:
-    /// Adds the grids that the shapes need to `memory`. If they do not fit, automatic voxels get coarser. \throw
-    /// LimitError if that does not suffice.
+    /// Adds to `memory` what the grids of the shapes take. If the grids do not fit, automatic voxels get coarser.
+    /// \throw LimitError if that does not suffice.
     SharedGrids(const std::vector<LoadedShape>& shapes, const GridContext& context, MemoryEstimate& memory);
 
     /// The field of a mesh or level set in the unit space of the scene. Voxelizes a mesh, and extends a level set to
-    /// the reach of the shape. Sets `loaded.stack`, without the OpenVDB grids, and adds the warnings of the file,
-    /// unless another shape already has them.
-    /// \throw InputError naming the file, as voxelize() and extend_levels(); LimitError as voxelize().
+    /// the reach of the shape. Sets `loaded.stack`, without the OpenVDB grids, and adds the warnings of the grid,
+    /// unless another shape already has them. \throw InputError naming the file, as voxelize() and extend_levels();
+    /// LimitError as voxelize().
     AnyField field(LoadedShape& loaded);
 
   private:
-    /// A file and settings.
+    /// A file and the settings of its grid.
     struct Key {
         const void* file;
         SignChoice sign = SignChoice::automatic;
@@ -43,7 +43,7 @@ class SharedGrids {
     struct Entry {
         std::size_t users = 0;
         GridStack stack{};
-        std::optional<LevelStack> field{}; // set once built; in the frame of the stack if there are several users
+        std::optional<LevelStack> field{}; // set when built; in the frame of the stack if there are several users
     };
 
     Key key_of(const LoadedShape& loaded) const;

@@ -1,4 +1,4 @@
-/// Checks the nesting of a TOML file before parsing: the parser recurses for each part of a key.
+/// Checks the nesting of a TOML file before it is parsed, because the parser recurses for each part of a key.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"

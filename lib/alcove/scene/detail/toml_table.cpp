@@ -43,7 +43,7 @@ void TomlTable::fail(std::string_view key, const std::string& what, std::string_
                                  in_one_line(fmt::format("{}{}{}", key, key.empty() ? "" : between, what))));
 }
 
-/// The full name of a table in this one.
+/// The full name of a table inside this table.
 std::string TomlTable::path_of(std::string_view key) const {
     return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
@@ -184,7 +184,7 @@ std::vector<std::pair<std::string, TomlTable>> TomlTable::named_tables() {
 }
 
 void TomlTable::check_all_read() const {
-    constexpr std::size_t max_length = 64; // no known key is close to a longer one
+    constexpr std::size_t max_length = 64; // a longer key resembles none of the known keys
     for (const auto& [key, node] : table_) {
         if (std::find(known_.begin(), known_.end(), key.str()) != known_.end())
             continue;

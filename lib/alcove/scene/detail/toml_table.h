@@ -12,11 +12,11 @@
 
 namespace alcove {
 
-/// Every reader returns an empty optional if the key is missing. It throws an InputError with file, line and fix if the
-/// value has another type. Keeps a reference to the table.
+/// Every reader returns an empty optional if the key is missing. If the value has the wrong type, it throws an
+/// InputError with file, line and fix. Keeps a reference to the table.
 class TomlTable {
   public:
-    /// `path` is the prefix of the tables in it, such as `object` in `[[object.part]]`.
+    /// `path` is the prefix in the names of tables inside this table, such as `object` in `[[object.part]]`.
     TomlTable(const toml::table& table, std::string file, std::string name, std::string path = {});
 
     std::optional<double> number(std::string_view key);               ///< finite
@@ -24,16 +24,16 @@ class TomlTable {
     std::optional<int> count(std::string_view key, int min, int max); ///< an integer in [min, max]
     std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);
-    /// The index of one of the words. \throw InputError listing them.
+    /// The index of the value among `words`. \throw InputError listing the words.
     std::optional<std::size_t> word(std::string_view key, std::initializer_list<std::string_view> words);
     std::optional<Vec3d> vector(std::string_view key);    ///< three finite numbers
     std::optional<Vec3d> direction(std::string_view key); ///< of any length but 0
-    /// Three numbers, or one for all three channels, in [0, max].
+    /// Three numbers in [0, max], or one number for all three channels.
     std::optional<Vec3> color(std::string_view key, double max);
     std::optional<TomlTable> table(std::string_view key);
     /// The elements of an array of tables; empty if the key is missing.
     std::vector<TomlTable> tables(std::string_view key);
-    /// The tables in this one with their names. Every key must be a table.
+    /// The tables inside this table, with their names. Every key must be a table.
     std::vector<std::pair<std::string, TomlTable>> named_tables();
 
     const toml::table& raw() const { return table_; }

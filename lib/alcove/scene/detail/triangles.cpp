@@ -44,14 +44,14 @@ class CornerColors {
   private:
     std::vector<Vec3> painted_;
     const std::vector<Vec3>*of_vertices_ = nullptr, *of_faces_ = nullptr;
-    std::vector<std::uint32_t> faces_; // of the triangles
+    std::vector<std::uint32_t> faces_; // of each triangle
 };
 
 class Collector {
   public:
     explicit Collector(const Frame& frame) : frame_(frame) {}
 
-    /// Sets the object of everything added from now on.
+    /// Sets the object to which everything added later belongs.
     void begin(ObjectId object) { object_ = object; }
 
     void add_mesh(const LoadedShape& loaded, const MeshShape& shape) {
@@ -89,7 +89,7 @@ class Collector {
         }
     }
 
-    /// Adds the zero isosurface of a field, on voxels relative to the size of the shape.
+    /// Adds the zero isosurface of a field. The voxel is relative to the size of the shape.
     void add_field(const LoadedShape& loaded, const AnyField& field) {
         if (two_sided(field))
             throw InputError(loaded.object->name +
