@@ -19,11 +19,12 @@
 namespace alcove {
 namespace {
 
-/// Seeds for the truth and for the labels: not the seed of a bake, so that a bake with exact rays has noise of its own.
+/// Seeds for the truth and for the labels. They differ from the seed of a bake, so that the noise of a bake with exact
+/// rays is independent of the noise of the truth.
 constexpr std::uint32_t truth_seed = 0x7ea7, fitted_seed = 0x7c31;
 constexpr std::size_t max_counted = 1024;
 
-/// Measures CPU seconds of the process since construction, and resets its peak memory.
+/// Measures the CPU seconds of the process since construction. Construction also resets the peak memory of the process.
 class ProcessMeter {
   public:
     ProcessMeter() { forget_peak_resident_bytes(); }
@@ -48,8 +49,7 @@ double map_calls_per_surfel(const MeasuredMesh& mesh, const MeasuredGrid& grid, 
     return static_cast<double>(counting.calls()) / static_cast<double>(surfels.size());
 }
 
-/// An error for every vertex. It is the error of the last vertex with a truth, at or before this vertex on the Morton
-/// curve.
+/// For every vertex, the error of the last vertex with a reference value that is not after it on the Morton curve.
 std::vector<float> errors_of_all(const MeasuredMesh& mesh, const Truth& truth, std::span<const float> values) {
     std::vector<float> errors(mesh.surfels.size(), 0.0f);
     std::size_t next = 0;

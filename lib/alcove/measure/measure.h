@@ -5,8 +5,8 @@
 ///     const MeasuredGrid grid = build_grid(mesh, 0.1f, 0.0f);
 ///     const Measurement m = measure(mesh, truth, &grid, choose(find_method("classic")));
 ///
-/// Times are CPU seconds of the process, summed over all threads, of a single pass. So nothing else may run in the
-/// process meanwhile, and these functions must not run concurrently.
+/// Times are CPU seconds that the process spends in a single pass, summed over all threads. So nothing else may run in
+/// the process meanwhile, and these functions must not run concurrently.
 #pragma once
 
 #include "alcove/bake/detail/error_figures.h"
@@ -42,13 +42,14 @@ struct TruthOptions {
 /// The number of labels in a planned bake with an error of 0.02.
 inline constexpr std::size_t labels_of_pilot = 512;
 
-/// Reference ao at some vertices, by exact rays whose seed differs from that of a bake.
+/// Reference ao at some vertices, from exact rays whose seed differs from that of a bake.
 struct Truth {
     float radius = 0.0f; ///< unit space; may be infinite
     /// All vertices with a normal except those of `labels`, or a subset that is evenly spaced along the Morton curve.
     std::vector<std::uint32_t> vertices;
     std::vector<float> ao; ///< one value per entry of `vertices`
-    /// Other vertices, to which methods with a network are fitted. Null if none are requested, or if the mesh is small.
+    /// Reference ao at other vertices, to which methods fit their network. Null if none is requested, or if the mesh is
+    /// small.
     std::shared_ptr<const Labels> labels;
 };
 Truth make_truth(const MeasuredMesh& mesh, float radius, const TruthOptions& options = {},
@@ -63,8 +64,8 @@ struct MeasuredGrid {
     std::size_t peak_rss_bytes;       ///< peak memory of the process during that time
 };
 
-/// Builds the grid as a bake does, with clustered vertices on dense surfaces. Radius and voxel in unit space; if
-/// `voxel` is 0, its size is chosen automatically. \throw like voxelize().
+/// Builds the grid as a bake does, with clustered vertices on dense surfaces. `radius` and `voxel` are in unit space;
+/// if `voxel` is 0, the voxel size is chosen automatically. \throw what voxelize() throws.
 MeasuredGrid build_grid(const MeasuredMesh& mesh, float radius, float voxel, const Progress& progress = {});
 
 struct Measurement {
@@ -79,7 +80,7 @@ struct Measurement {
     double grid_seconds = 0.0;      ///< 0 if the method uses no grid
     double tree_seconds = 0.0;      ///< time to build the BVH; 0 if the method does not trace the mesh
     double occlusion_seconds = 0.0; ///< for all vertices
-    double map_calls = 0.0;         ///< per vertex; counted on at most 1,024 vertices
+    double map_calls = 0.0;         ///< per vertex; counted at up to 1,024 vertices
     double rays = 0.0;              ///< per vertex, through the grid or against the mesh
     std::size_t grid_bytes = 0;
     std::size_t peak_rss_bytes = 0; ///< peak memory of the process during grid build and bake; 0 if unknown

@@ -179,7 +179,7 @@ class Page {
         return text;
     }
 
-    /// Error against seconds; a line connects the points of one method at its different sample counts.
+    /// A chart of error against seconds. Lines connect the points of a method that differ only in the sample count.
     std::string times(const Group& group, Cost cost, const std::string& title) const {
         Chart chart{.x_title = title, .y_title = "RMSE"};
         const std::vector<std::size_t> front = front_of(group, cost);
@@ -201,7 +201,7 @@ class Page {
         return svg(chart);
     }
 
-    /// Chart of error against a length, with one line per method and sample count.
+    /// A chart of error against a length, with one line per method and sample count.
     std::string lines(const Group& group, const std::string& title, float (*length)(const Measurement&)) const {
         Chart chart{.x_title = title, .y_title = "RMSE"};
         for (const auto& [label, same] : grouped_by(group, [](const Measurement& m) { return m.label(); })) {

@@ -68,7 +68,7 @@ Mesh surface_of(const std::string& file, const std::optional<Length>& weld) {
     return weld ? join_vertices(mesh, *weld).mesh : mesh;
 }
 
-/// Measures jobs in turn. Keeps data that consecutive jobs share, and shows the progress of all jobs.
+/// Measures jobs in turn. Keeps data that consecutive jobs share, and reports progress over all jobs.
 class JobRunner {
   public:
     JobRunner(const std::vector<Job>& jobs, const SweepOptions& options) : options_(options) {
@@ -128,7 +128,7 @@ class JobRunner {
     std::optional<MeasuredGrid> grid_;
 };
 
-/// Measures the jobs that are not in the file. Skips the jobs of meshes that cannot be measured.
+/// Measures the jobs whose results are not in the file. If a job fails, skips the other jobs of its mesh.
 void measure_missing(const std::vector<Job>& jobs, const SweepOptions& options, ResultsFile& results, Sweep& to) {
     std::vector<Job> missing;
     std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(missing),

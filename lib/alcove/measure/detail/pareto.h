@@ -11,8 +11,8 @@ struct CostAndError {
     double cost = 0.0, error = 0.0;
 };
 
-/// The indices of the Pareto-optimal choices, cheapest first: every other choice that is not more expensive has a
-/// larger error. Equal choices are represented by the first of them (Pareto 1906). Cost: n log n.
+/// The indices of the Pareto-optimal choices, cheapest first: those for which every other choice of at most the same
+/// cost has a larger error (Pareto 1906). Of equal choices, only the first is included. Cost: n log n.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> choices);
 
 }

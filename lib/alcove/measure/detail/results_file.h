@@ -10,8 +10,8 @@
 
 namespace alcove {
 
-/// The key of a measurement: mesh, its file size in bytes, method, samples, radius and voxel as the user wrote them,
-/// and version.
+/// The key of a measurement: the mesh, the size of its file in bytes, the method, its samples, the radius and voxel as
+/// the user wrote them, the version, and the weld length if there is one.
 using MeasurementKey = nlohmann::ordered_json;
 
 class ResultsFile {
@@ -20,10 +20,10 @@ class ResultsFile {
     /// does not contain measurements; IoError if it cannot be written.
     explicit ResultsFile(std::string file);
 
-    /// Null if not measured yet.
+    /// The measurement with this key; null if there is none yet.
     const Measurement* find(const MeasurementKey& key) const;
-    /// Adds a measurement and rewrites the file. Results of other inputs are kept. \throw IoError if the file cannot be
-    /// written.
+    /// Adds a measurement and rewrites the file. Measurements that the file already contains stay in it. \throw IoError
+    /// if the file cannot be written.
     void add(const MeasurementKey& key, Measurement measurement);
 
   private:
