@@ -27,7 +27,7 @@ fs::path of_tile(const fs::path& file, int udim) {
     return file.parent_path() / name;
 }
 
-/// The file of an attribute. The first attribute, which is ao if there is any, gets the given name.
+/// The file of an attribute. The first attribute, which is ao if ao is baked, goes to `file` itself.
 fs::path of_attribute(const fs::path& file, std::string_view attribute, bool is_first) {
     if (is_first)
         return file;
@@ -68,7 +68,7 @@ class PngValues {
     std::uint16_t operator()(std::size_t i) const {
         const Range& range = ranges_[components_ == 1 ? 0 : i % components_];
         const float share = std::clamp(range.scale * values_[i] + range.offset, 0.0f, 1.0f);
-        constexpr float half = 0.5f; // rounds, faster than lround()
+        constexpr float half = 0.5f; // for rounding, which is faster than lround()
         return static_cast<std::uint16_t>(most_ * share + half);
     }
 

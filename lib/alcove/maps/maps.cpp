@@ -19,12 +19,12 @@
 namespace alcove {
 namespace {
 
-constexpr double bytes_per_point = 260.0; // measured: a bake of points
-constexpr double bytes_per_sample = 7.0;  // rasterizing
-constexpr double bytes_per_texel = 10.0;  // coverage, padding, counts
+constexpr double bytes_per_point = 260.0; // measured for bakes of points
+constexpr double bytes_per_sample = 7.0;  // for rasterizing
+constexpr double bytes_per_texel = 10.0;  // for coverage, padding and counts
 constexpr int most_subsamples = 8;
 
-/// The faces of several meshes as one mesh, with normals if all of the meshes have them.
+/// The faces of several meshes as one mesh, with normals if all the meshes have them.
 Mesh united(std::span<const Mesh> meshes) {
     Mesh all;
     all.name = meshes.front().name;
@@ -87,7 +87,7 @@ class MapBake {
                 faces.set_cage(*options.cage);
         }
         const double error = bake.error.value_or(bake.method.empty() ? rmse_of(bake.quality) : 0.0);
-        // Below this error, the noise of the rays makes neighbours differ by more than the tolerance.
+        // If less error is wanted, the noise of the rays alone makes neighbours differ by more than the tolerance.
         constexpr double least_error = 0.01;
         if (error >= least_error && options.subsamples == 1 && !high_ && bake.attributes == Channel::ao)
             sparse_error_ = static_cast<float>(error);
@@ -202,7 +202,7 @@ class MapBake {
             samples_.push_back({number, static_cast<std::uint32_t>(i)});
         });
         tiles_[number].sampled_rows = tiles_[number].uvs.height;
-        // No samples of earlier tiles are left: these tiles are complete.
+        // If no samples of earlier tiles are left, those tiles are complete.
         if (samples_.empty() || samples_.front().tile == number)
             finish_tiles(number);
         if ((tiles_.size() - finished_) * tiles_[number].owners.size() >= most_open)
@@ -241,7 +241,8 @@ class MapBake {
             SurfacePoints points = projection_ ? points_of(projected) : points_of_samples();
             if (sparse_error_ > 0.0f)
                 points.more = [&](std::span<const float> ao) { return interpolate(ao, between); };
-            // The pilot sees neither the errors of interpolated texels nor all texels of small islands.
+            // The pilot misses the errors of interpolated texels and some texels of small islands, so plan for less
+            // error.
             points.error_share = 0.93;
             Baked baked;
             if (!bake_.attributes.empty())
@@ -268,10 +269,10 @@ class MapBake {
         filled_ = 0;
     }
 
-    /// Interpolates the texels between samples; `ao` is that of the samples. Texels whose neighbours differ are
-    /// appended to the samples. \return the points of the new samples
+    /// Interpolates the texels between samples. `ao` contains the values of the samples. Texels whose neighbours differ
+    /// are appended to the samples. \return the points of the new samples
     std::vector<SurfacePoint> interpolate(std::span<const float> ao, std::size_t& between) {
-        const float tolerance = 2.0f * sparse_error_; // as noise makes neighbours differ, too
+        const float tolerance = 2.0f * sparse_error_; // because noise makes neighbours differ, too
         for (std::size_t i = filled_; i < ao.size(); ++i)
             tiles_[samples_[i].tile].map.layers.front().values[samples_[i].index] = ao[i];
         filled_ = ao.size();
@@ -359,7 +360,7 @@ class MapBake {
         return values;
     }
 
-    /// Turns the directions of the samples into the axes of the options.
+    /// Converts the directions of the samples to the axes that the options specify.
     void turn_directions(std::vector<float>& directions) const {
         for (std::size_t i = 0; i < samples_.size(); ++i) {
             float* const d = &directions[3 * i];
@@ -414,22 +415,22 @@ class MapBake {
         maps_.baked.warnings.insert(maps_.baked.warnings.begin(), warnings.begin(), warnings.end());
     }
 
-    // Independent of the available memory: each batch is planned by itself, and the values must not depend on the
+    // Fixed, whatever memory is available: each batch is planned by itself, and the result must not depend on the
     // machine.
-    static constexpr std::size_t batch = 1 << 23, most_open = 2 * batch; // samples; those of open tiles
+    static constexpr std::size_t batch = 1 << 23, most_open = 2 * batch; // samples in a batch; in open tiles
 
     const Mesh& mesh_;
     const MapOptions& options_;
     BakeOptions bake_;
     std::vector<UvFaces> layouts_;
-    std::size_t width_, texels_; // of the map; texels per tile
+    std::size_t width_, texels_; // width of the map; texels per tile
     std::vector<MapAttribute> attributes_;
-    bool has_tangents_ = false; // directions are turned into tangent space
+    bool has_tangents_ = false; // whether directions are converted to tangent space
     std::optional<Mesh> high_;
     std::optional<Projection> projection_;
     std::vector<std::size_t> object_ends_; // the end of each high mesh in the faces of high_
     std::vector<OpenTile> tiles_;
-    std::size_t finished_ = 0;   // of the tiles
+    std::size_t finished_ = 0;   // number of finished tiles
     HugeVector<Sample> samples_; // of the batch
     std::size_t filled_ = 0;     // samples whose values interpolate() has stored
     BakedMaps maps_;
@@ -464,7 +465,7 @@ BakedMaps bake_layouts(const Mesh& mesh, const BakeOptions& bake, const MapOptio
     const ThreadLimit limit(bake.threads);
     check(options);
     BakeOptions checked = bake;
-    if (!options.surface.empty()) // needs no other attribute
+    if (!options.surface.empty()) // maps of the surface need no other attribute
         checked.attributes = bake.attributes | Channel::ao;
     check(checked);
     return MapBake(mesh, bake, options, layouts).run();

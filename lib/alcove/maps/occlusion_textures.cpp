@@ -23,7 +23,7 @@
 namespace alcove {
 namespace {
 
-/// The faces of each material. If a mesh has several instances, only the faces of the first one.
+/// The faces of each material. Of a mesh with several instances, only the faces of the first instance.
 class MaterialFaces {
   public:
     MaterialFaces(const Mesh& mesh, const GltfDocument* document, const FaceSelection& selection) {
@@ -34,7 +34,7 @@ class MaterialFaces {
             faces_[{}] = std::move(baked);
             return;
         }
-        std::map<std::size_t, std::size_t> first; // placement of each mesh
+        std::map<std::size_t, std::size_t> first; // first placement of each mesh
         for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
             const std::size_t begin = mesh.groups[g].first_face, end = mesh.group_end(g);
             if (!baked[begin])
@@ -53,7 +53,7 @@ class MaterialFaces {
     }
 
     const std::map<std::optional<std::size_t>, std::vector<std::uint8_t>>& faces() const { return faces_; }
-    /// The primitives with the given material: meshes of the file, and primitives in them.
+    /// The primitives with a material: pairs of a mesh of the file and a primitive in it.
     std::vector<std::pair<std::size_t, std::size_t>> primitives(const std::optional<std::size_t>& material) const {
         const auto found = primitives_.find(material);
         if (found == primitives_.end())

@@ -30,13 +30,13 @@ void finish(MapLayer& layer, const MapTile& map, const std::vector<std::uint16_t
             take_mean(std::span(layer.values).subspan(components * i, components), counts[i], attribute.is_direction);
     for (std::size_t i = 0; i < texels; ++i)
         for (std::size_t c = 0; c < components && coverage[i] != Coverage::face; ++c)
-            layer.values[components * i + c] = coverage[i] != Coverage::background
-                                                   ? layer.values[components * nearest[i] + c]
-                                               : attribute.is_direction && c == 2 && has_tangents ? 1.0f // the normal
-                                                                                                  : attribute.missing;
+            layer.values[components * i + c] =
+                coverage[i] != Coverage::background                ? layer.values[components * nearest[i] + c]
+                : attribute.is_direction && c == 2 && has_tangents ? 1.0f // along the normal
+                                                                   : attribute.missing;
 }
 
-/// Calls `visit(index)` for each texel from which one is interpolated.
+/// Calls `visit(index)` for each texel from which `texel` is interpolated.
 template <class Visit>
 void for_each_around(const TexelsAround& around, std::size_t texel, std::size_t width, const Visit& visit) {
     const std::size_t rows = around.down * width, across = around.across;
@@ -48,8 +48,8 @@ void for_each_around(const TexelsAround& around, std::size_t texel, std::size_t 
     }
 }
 
-/// Interpolates the texels of a row from neighbours at `distance`, and adds their number to `count`. Texels whose
-/// neighbours differ by more than `tolerance` are appended to `others` instead.
+/// Interpolates texels of a row from their neighbours at `distance`, and adds the number of these texels to `count`.
+/// Texels whose neighbours differ by more than `tolerance` are appended to `others` instead.
 void interpolate_row(OpenTile& tile, std::size_t row, std::size_t distance, float tolerance, std::size_t& count,
                      std::vector<std::uint32_t>& others) {
     std::vector<float>& values = tile.map.layers.front().values;
@@ -111,7 +111,7 @@ TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y) {
 
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count) {
     std::vector<std::uint32_t> others;
-    int ready = tile.sampled_rows; // rows whose neighbours have values
+    int ready = tile.sampled_rows; // rows from the top that have values at larger distances
     for (int distance = tile.stride / 2; distance > 0 && others.empty(); distance /= 2) {
         int& row = tile.interpolated_rows[static_cast<std::size_t>(distance - 1)];
         const int end = ready == tile.uvs.height ? ready : std::max(ready - distance, 0);

@@ -1,4 +1,4 @@
-/// A tile of a map that is being baked, and the order of its texels.
+/// Tiles of a map while they are baked, and the order of their texels.
 #pragma once
 
 #include "alcove/maps/detail/rasterize.h"
@@ -13,7 +13,7 @@
 
 namespace alcove {
 
-/// A tile that is being baked.
+/// A tile of a map whose texels do not all have values yet.
 struct OpenTile {
     const UvFaces* faces = nullptr;
     UvTile uvs{};
@@ -22,37 +22,37 @@ struct OpenTile {
     std::vector<std::uint16_t> counts{};    ///< samples per texel
     std::vector<std::uint8_t> wanted{};     ///< 1 for texels of a face
     int stride = 1;                         ///< texels from one sample to the next, see texels_around()
-    int sampled_rows = 0;                   ///< rows from the top whose samples have been taken
-    std::array<int, 2> interpolated_rows{}; ///< at the distances 1 and 2
+    int sampled_rows = 0;                   ///< rows from the top whose samples have values
+    std::array<int, 2> interpolated_rows{}; ///< rows done at the distances 1 and 2
 };
 
-/// The distance between samples, in texels, for a map with this RMSE. It grows with the number of texels, and with
-/// their number per triangle.
+/// The distance between samples, in texels, for a map with the RMSE `error`. It grows with the number of covered
+/// texels, and with their number per triangle.
 int stride_of_samples(std::size_t covered_texels, std::size_t triangles, float error);
 
-/// The distances, along the row and along the column, to the texels from which a texel is interpolated. If one of them
-/// is 0, there are two such texels, otherwise four. If both are 0, the texel is not interpolated.
+/// The distances, along the row and along the column, to the texels from which a texel is interpolated. If one of the
+/// distances is 0, there are two such texels, otherwise four. If both are 0, the texel is not interpolated.
 struct TexelsAround {
     std::size_t across = 0, down = 0;
 
     bool any() const { return across > 0 || down > 0; }
 };
 
-/// A texel whose column or row is an odd multiple of a power of two below the stride is interpolated from its neighbours
-/// at this distance, if they are in its chart.
+/// Finds the largest power of two that divides both the column and the row of a texel. If this is less than the stride,
+/// the texel is interpolated from neighbours at this distance, provided that they are in its chart.
 TexelsAround texels_around(const OpenTile& tile, std::size_t x, std::size_t y);
 
 /// Interpolates the texels in the rows whose neighbours have values, from large distances to small, and adds their
-/// number to `count`. \return texels whose neighbours differ by more than `tolerance`, all at one distance. They must
-/// get values before the next call, which continues from there. Empty if all texels have values.
+/// number to `count`. \return texels whose neighbours differ by more than `tolerance`, all at one distance. These
+/// texels must get values before the next call, which continues with the next distance. Empty if no texels are left.
 std::vector<std::uint32_t> interpolate_between(OpenTile& tile, float tolerance, std::size_t& count);
 
 struct TexelCounts {
     std::size_t covered = 0; ///< texels with a value
-    std::size_t missed = 0;  ///< texels of faces without one
+    std::size_t missed = 0;  ///< texels of faces without a value
 };
 
-/// Turns sums into means, and fills the margin and texels that were missed.
+/// Turns sums into means, and fills the margin and the missed texels.
 TexelCounts finish(OpenTile& tile, const MapOptions& options, bool has_tangents);
 
 /// Visits the texels of a tile block by block, so that texels nearby on the surface are nearby in memory. Passes the

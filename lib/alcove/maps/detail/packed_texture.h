@@ -13,7 +13,8 @@ namespace alcove {
 /// The size of an image, without decoding it. \throw like decode_image()
 MapSize size_of(const GltfImage& image);
 
-/// Checks the memory for packing into an image at size `to`. \throw LimitError if it exceeds the limit.
+/// Checks the memory that packing into an image of size `to` takes. \throw LimitError if it is more than
+/// memory_limit().
 void check_packing(const GltfImage& image, MapSize to);
 
 /// A PNG of size `to` whose red channel is the ao of a map, and whose other channels are those of the image.

@@ -98,7 +98,8 @@ std::vector<std::uint32_t> nearest_covered(std::span<const std::uint8_t> covered
             for (std::size_t x = 0; x < columns; ++x) {
                 if (is_covered[x])
                     continue;
-                // A run of uncovered texels and the covered texels at its ends, beyond which none is nearer.
+                // A run of uncovered texels, and the covered texels at its ends. No covered texel beyond these ends is
+                // nearer.
                 const std::size_t first = x - (x > 0);
                 heights.assign(x - first, 0);
                 bool is_near = x > first;

@@ -37,7 +37,7 @@ Projection::Projection(const Mesh& high, NormalSource normals)
 std::vector<ProjectedTo> Projection::project(std::span<const ProjectedFrom> points, double behind) const {
     std::vector<ProjectedTo> to(points.size());
     parallel_for(points.size(), RayBatch::capacity, [&](std::size_t begin, std::size_t end) {
-        // A ray along an edge may miss both of its faces, so rays beside it are tried too.
+        // A ray that meets an edge may miss the faces on both sides of it, so rays beside it are tried too.
         constexpr float beside = 1e-5f; // unit space
         for (const Vec2 shift : {Vec2(0, 0), Vec2(beside, 0), Vec2(-beside, 0), Vec2(0, beside), Vec2(0, -beside)})
             project_block(points.subspan(begin, end - begin), behind, shift, std::span(to).subspan(begin, end - begin));
@@ -98,11 +98,11 @@ void Projection::project_block(std::span<const ProjectedFrom> points, double beh
 
 double Projection::reach_for(std::span<const ProjectedFrom> points) const {
     constexpr double furthest = 0.1, least = 1e-4; // relative to the diagonal
-    constexpr double most = 0.95, spare = 5.0;     // rays that pass a tip hit other parts, far away
+    constexpr double most = 0.95, spare = 5.0;     // rays past a tip hit other parts, far away
     std::vector<ProjectedFrom> inverse(points.begin(), points.end());
     for (ProjectedFrom& point : inverse)
         point.direction = -point.direction;
-    // A ray from far in front would meet other parts first, so rays start at the points and go both ways.
+    // A ray from far in front would meet other parts first, so rays start at the points and go in both directions.
     std::vector<double> distances;
     for (const std::span<const ProjectedFrom> from : {points, std::span<const ProjectedFrom>(inverse)}) {
         std::vector<double> nearest(from.size(), std::numeric_limits<double>::infinity());

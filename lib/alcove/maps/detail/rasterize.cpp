@@ -10,7 +10,7 @@
 namespace alcove {
 namespace {
 
-constexpr std::int64_t steps = 256; // per texel, of the grid that UVs are rounded to
+constexpr std::int64_t steps = 256; // per texel, of the grid to which UVs are rounded
 
 struct Point {
     std::int64_t x, y;
@@ -36,8 +36,8 @@ struct Span {
     std::int64_t begin, end;
 };
 
-/// Fills the texels of one tile. Runs of texels that are done are skipped, so even many overlapping triangles cost
-/// little more than their rows.
+/// Fills the texels of one tile. Runs of texels that are done are skipped, so each of many overlapping triangles costs
+/// little more than a visit to its rows.
 class Rasterizer {
   public:
     explicit Rasterizer(const UvTile& tile) : tile_(tile) {
@@ -71,7 +71,7 @@ class Rasterizer {
         }
     }
 
-    /// Claims further texels that the triangle touches, if they are free. Call after add_centres() for all triangles
+    /// Claims all texels that the triangle touches and that are still free. Call after add_centres() for all triangles
     /// and start_borders().
     void add_border(const UvTriangle& uvs, std::uint32_t triangle) {
         std::array<glm::dvec2, 3> p;
@@ -132,7 +132,7 @@ class Rasterizer {
             span.end = span.begin;
     }
 
-    /// Free texels become the triangle's; others count once as overlaps.
+    /// Free texels become the triangle's; texels that are already owned count as overlaps, once each.
     void claim_or_count(std::int64_t row, const Span& span, std::uint32_t triangle) {
         each(row, span, [&](std::size_t texel) {
             if (owners_.triangles[texel] == no_triangle) {
@@ -173,7 +173,7 @@ class Rasterizer {
 
     UvTile tile_;
     TexelOwners owners_;
-    std::vector<std::uint16_t> skips_; // number of texels from here on that are done; 0 if this one is not
+    std::vector<std::uint16_t> skips_; // number of texels from this one on that are done; 0 if this one is not
 };
 
 }

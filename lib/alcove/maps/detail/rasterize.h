@@ -27,7 +27,7 @@ struct TexelOwners {
     std::size_t size() const { return triangles.size(); }
 };
 
-/// The UVs that the tile covers: the unit square that begins at `corner`.
+/// A tile: the unit square of UVs whose lower left corner is `corner`.
 struct UvTile {
     int width, height; ///< texels
     Vec2 corner{0.0f};

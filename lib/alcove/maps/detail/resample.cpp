@@ -6,7 +6,7 @@
 namespace alcove {
 namespace {
 
-/// The texels of a row or column whose weighted mean is the new texel.
+/// The weights of successive texels of a row or column. A new texel is their weighted mean.
 struct Weights {
     std::size_t first = 0;
     std::vector<float> shares;

@@ -13,8 +13,8 @@ struct MapSize {
     auto operator<=>(const MapSize&) const = default;
 };
 
-/// `values`: row by row, `channels` per texel. Along each axis, new texels are means over their area if the image gets
-/// smaller, and interpolated if it gets larger; borders do not wrap around.
+/// `values` has `channels` values per texel, row by row. Along each axis, a new texel is the mean over its area if the
+/// image gets smaller, and is interpolated if the image gets larger. Borders do not wrap around.
 std::vector<float> resample(std::span<const float> values, std::size_t channels, MapSize from, MapSize to);
 
 }

@@ -18,13 +18,13 @@ Vec3d unit(const Vec3d& v) {
     return length > 0.0 ? v / length : Vec3d(0.0);
 }
 
-/// The part of a vector at right angles to a normal, unit length.
+/// The component of a vector at right angles to a normal, normalised.
 Vec3d projected(const Vec3d& v, const Vec3d& normal) {
     return unit(v - glm::dot(normal, v) * normal);
 }
 
-/// The direction of u on a triangle, and whether its UVs keep the orientation. The direction is zero if the UVs have no
-/// area.
+/// The direction of u on a triangle, and whether its UVs keep the orientation. The triangle is degenerate if its UVs
+/// have no area, or if u or v has no direction on it.
 struct Gradient {
     Vec3d along_u{0.0};
     bool keeps_orientation = false, is_degenerate = true;
@@ -55,11 +55,11 @@ std::vector<std::uint32_t> vertices_of(std::span<const Corners> triangles) {
     return vertices;
 }
 
-/// Finds the neighbour across each edge. An edge runs from its corner to the next one. Its entry is the corner from
-/// which the same edge of the neighbour runs back.
+/// Finds the neighbour across each edge. An edge runs from the corner with its number to the next corner. Its entry in
+/// the result is the corner of the neighbour from which the same edge runs back.
 std::vector<std::uint32_t> neighbours_of(const std::vector<std::uint32_t>& vertices) {
     const auto end_of = [&](std::uint32_t edge) { return vertices[edge % 3 == 2 ? edge - 2 : edge + 1]; };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> open; // edges by their ends
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> open; // unpaired edges, by their ends
     std::vector<std::uint32_t> neighbours(vertices.size(), none);
     for (std::uint32_t edge = 0; edge < vertices.size(); ++edge) {
         const std::pair ends(vertices[edge], end_of(edge));
@@ -97,7 +97,7 @@ class TangentGroups {
     }
 
   private:
-    /// Adds the corners around a vertex that are connected by edges and equally mirrored.
+    /// Sets the tangent of the group of corners around a vertex that are connected by edges and equally mirrored.
     void add_group(std::uint32_t first) {
         const bool orientation = gradients_[first / 3].keeps_orientation;
         std::vector<std::uint32_t> group{first};
@@ -147,7 +147,7 @@ class TangentGroups {
     std::span<const Corners> triangles_;
     std::vector<std::uint32_t> vertices_, neighbours_; // by corner
     std::vector<Gradient> gradients_;                  // by triangle
-    std::vector<Vec3d> tangents_; // by corner; keeps its initial value if no triangle with an area in UV space is near
+    std::vector<Vec3d> tangents_;                      // by corner; initial value if the corner is in no group
     std::vector<std::uint8_t> has_group_;
 };
 

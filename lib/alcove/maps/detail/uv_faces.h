@@ -21,7 +21,7 @@ inline constexpr int first_udim = 1001, udims_per_row = 10;
 struct UvFacesOptions {
     NormalSource normals = NormalSource::automatic;
     int uv_set = 0;
-    std::span<const std::uint8_t> wanted{}; ///< empty, or 1 for each face to take
+    std::span<const std::uint8_t> wanted{}; ///< empty, or 1 for each face to include
 };
 
 /// The triangles of a mesh that have usable UVs. `const` use is thread-safe.
@@ -31,11 +31,11 @@ class UvFaces {
     UvFaces(const Mesh& mesh, const UvFacesOptions& options);
 
     std::span<const UvTriangle> uvs() const { return uvs_; }
-    /// Triangles with an area but without usable UVs, or without area in UV space.
+    /// The number of triangles with an area whose UVs are unusable or have no area.
     std::size_t without_texels() const { return without_texels_; }
     /// The face of a triangle.
     std::uint32_t face(std::uint32_t triangle) const { return faces_[triangle]; }
-    /// The point of a triangle with the barycentric coordinates `weights`. Its normal is not of unit length.
+    /// The point of a triangle with the barycentric coordinates `weights`. The length of its normal may differ from 1.
     SurfacePoint point(std::uint32_t triangle, const Vec3d& weights) const;
     /// Computes what chart() needs.
     void add_charts();
@@ -46,8 +46,8 @@ class UvFaces {
     /// which leaves no gaps at hard edges; the ray starts `front` in front of the point. If there is a cage, the ray
     /// starts at the cage and is directed at the point.
     ProjectedFrom projected_from(std::uint32_t triangle, const Vec3d& weights, double front) const;
-    /// Sets the cage: a mesh with the vertices of this one, moved outward. \throw InputError if it has a different
-    /// number of vertices.
+    /// Sets the cage: a copy of the mesh whose vertices are moved outward. Keeps a reference to it. \throw InputError
+    /// if it has a different number of vertices, or if no vertex has moved.
     void set_cage(const Mesh& cage);
     /// Computes what to_tangent() needs.
     void add_tangents();
@@ -69,7 +69,7 @@ class UvFaces {
     std::vector<Vec3> vertex_normals_;
     const Mesh* cage_ = nullptr;
     std::size_t without_texels_ = 0;
-    std::size_t unusable_ = 0, flat_ = 0; // triangles with UVs that are not finite or far away, or without area
+    std::size_t unusable_ = 0, flat_ = 0; // triangles left out: UVs not finite or far away; no UV area
 };
 
 }
