@@ -22,7 +22,7 @@ namespace alcove::cli {
 namespace {
 
 std::string rmse_text(const Baked& baked) {
-    constexpr double resolution = 1e-3; // of the measured error
+    constexpr double resolution = 1e-3; // smallest error that is shown as measured
     if (!baked.rmse)
         return "";
     return *baked.rmse < resolution ? fmt::format(", RMSE below {}", resolution)
@@ -41,7 +41,7 @@ std::string method_text(const Baked& baked) {
                        baked.reason.empty() ? "" : fmt::format(" (no grid used: {})", baked.reason));
 }
 
-/// Handles one input, from reading to writing.
+/// Handles one input, from reading the mesh to printing the result.
 class BakeJob {
   public:
     BakeJob(const BakeVerb& verb, const BatchFile& file) : verb_(verb), file_(file) {}

@@ -6,8 +6,8 @@
 
 namespace alcove::cli {
 
-/// Bakes one input. \throw as read_mesh(), bake(), bake_maps() and write_mesh(); std::runtime_error if --strict is
-/// given and the error target is missed.
+/// Bakes one input. \throw what read_mesh(), bake(), bake_maps() and write_mesh() throw; std::runtime_error if --strict
+/// is given and the error target is missed.
 void bake_file(const BakeVerb& verb, const BatchFile& file, const BakeProgress& progress);
 
 }

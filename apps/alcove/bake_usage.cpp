@@ -32,7 +32,7 @@ void check_map_usage(const BakeVerb& verb, const std::string& output) {
             "other meshes: leave out one of them");
     as_usage([&] {
         MapOptions map = verb.map.map;
-        map.high.resize(verb.map.high.size()); // read later
+        map.high.resize(verb.map.high.size()); // the files are read later
         if (!verb.map.cage.empty())
             map.cage.emplace();
         check(map);

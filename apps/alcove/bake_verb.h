@@ -28,7 +28,7 @@ bool is_gltf(const std::string& output);
 /// Checks the options before any file is read. \throw UsageError.
 void check_options(const BakeVerb& verb);
 
-/// Checks that the options fit the file to write. \throw UsageError; IoError if it cannot be written.
+/// Checks that the options fit the output. \throw UsageError; IoError if the output cannot be written.
 void check_output(const BakeVerb& verb, const std::string& output);
 
 }

@@ -22,12 +22,12 @@
 namespace alcove::cli {
 namespace {
 
-std::array<char, 200> time_limit_message{}; // formatted in advance, as a signal handler must not do so
+std::array<char, 200> time_limit_message{}; // formatted in advance: signal handlers must not format
 
-std::atomic<bool> ends{false}; // the last line is being printed, or was
+std::atomic<bool> ends{false}; // whether the last line is being or has been printed
 
 using Clock = std::chrono::steady_clock;
-std::optional<std::pair<Clock::time_point, double>> time_limit; // start and seconds
+std::optional<std::pair<Clock::time_point, double>> time_limit; // its start and length
 
 void handle(int signal, void (*handler)(int)) {
     struct sigaction action {};
@@ -47,7 +47,8 @@ extern "C" void on_interrupt(int signal) {
     (void)::raise(signal);
 }
 
-/// Prints a message unless the last line is printed already, and exits. Neither runs destructors nor allocates memory.
+/// Removes unfinished files, prints the message if it is to be the last line, and exits. Neither runs destructors nor
+/// allocates memory.
 [[noreturn]] void exit_with(const char* message, bool is_last_line) {
     remove_unfinished_files();
     if (is_last_line)

@@ -14,8 +14,8 @@ class Facts {
   public:
     /// Adds a fact to the JSON only. The fact `kind` is also the heading of the text.
     void add(const std::string& key, nlohmann::ordered_json value) { json_[key] = std::move(value); }
-    /// Adds a fact with its lines of text. The label is the key with spaces for underscores; without lines, the text
-    /// omits the fact.
+    /// Adds a fact with its lines of text. The label is the key, with spaces instead of underscores. If there are no
+    /// lines, the text omits the fact.
     void add(const std::string& key, nlohmann::ordered_json value, const std::vector<std::string>& lines);
     void add(const std::string& key, nlohmann::ordered_json value, const std::string& line) {
         add(key, std::move(value), std::vector{line});

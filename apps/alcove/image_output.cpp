@@ -14,7 +14,7 @@
 namespace alcove::cli {
 namespace {
 
-/// The named passes; none if the list is empty. \throw UsageError for an unknown name.
+/// The passes with these names. \throw UsageError for an unknown name.
 PassSet parse_passes(const std::vector<std::string>& names) {
     PassSet wanted;
     for (const std::string& name : names) {
@@ -35,7 +35,7 @@ PassSet parse_passes(const std::vector<std::string>& names) {
     return wanted;
 }
 
-/// The first of the passes in the order of `all_passes`.
+/// The first of the wanted passes, in the order of `all_passes`.
 Pass first(PassSet wanted) {
     return std::find_if(all_passes.begin(), all_passes.end(),
                         [&](const PassInfo& info) { return wanted.has(info.pass); })

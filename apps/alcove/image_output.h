@@ -29,8 +29,8 @@ class ImageOutput {
     explicit ImageOutput(const ImageRequest& request);
 
     PassSet passes() const { return passes_; }
-    /// The file name of a frame, counted from 1. The number comes before the extension and has as many digits as that
-    /// of the last frame, but at least four.
+    /// The file name of a frame, counted from 1. The number comes before the extension and has as many digits as the
+    /// number of the last frame, but at least four.
     std::string frame_file(int frame, int frames) const;
     /// Writes the file completely or not at all. `comments` are stored in an .exr only. \throw IoError if it cannot be
     /// written.

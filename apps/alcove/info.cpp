@@ -34,7 +34,7 @@ enum class Kind { mesh, grid, image };
 
 Kind kind_of(const std::string& file) {
     using namespace std::string_view_literals;
-    if (is_grid(file)) // not opened here, as it may be a pipe
+    if (is_grid(file)) // not opened here, because it may be a pipe
         return Kind::grid;
     std::array<char, 8> bytes{};
     std::error_code unknown;
@@ -102,7 +102,7 @@ Facts facts_of_grid(const std::string& file) {
         add_level(level, level.voxel * scale, partial, ", near thin walls and narrow gaps only");
     for (std::size_t i = 0; i < stack.levels.size(); ++i)
         add_level(stack.levels[i], stack.scene_voxel(i), levels, "");
-    facts.add("diagonal", scale); // percentages refer to this; in files of Alcove, it is that of the mesh
+    facts.add("diagonal", scale); // the base of percentages; in files written by Alcove, that of the mesh
     facts.add("partial_levels", partial);
     facts.add("levels", levels, lines);
     facts.add("warnings", stack.warnings, stack.warnings);

@@ -17,7 +17,7 @@ namespace {
 
 enum ExitCode { done = 0, failure = 1, usage = 2, bad_input = 3 };
 
-/// Prints a message in one line, even if it contains line breaks.
+/// Prints a message in one line, even if it contains line breaks. \return the code
 int complain(ExitCode code, const std::string& message) {
     alcove::cli::begin_to_end();
     std::fputs(fmt::format("alcove: {}\n", alcove::in_one_line(message)).c_str(), stderr);

@@ -13,7 +13,7 @@
 namespace alcove::cli {
 namespace {
 
-/// The whole number that the text consists of; empty for any other text.
+/// The whole number that the text represents; empty for any other text.
 std::optional<int> whole_number(std::string_view text) {
     int number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

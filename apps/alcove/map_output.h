@@ -12,7 +12,7 @@ struct MapRequest {
     MapFileOptions files;
     std::vector<std::string> high{};
     std::string cage{}, miss_mask{};
-    bool into_texture = false; ///< bake occlusion textures into a glTF file, not a map
+    bool into_texture = false; ///< bake occlusion textures into a glTF file instead of a map
     bool pack_orm = false;     ///< pack ao into the metallic-roughness textures of that file
     bool has_size = false;     ///< whether --size was used
     bool sized = false;        ///< whether --size, --subsamples or --margin was used
@@ -29,8 +29,9 @@ bool is_map(const std::string& output);
 /// --cage, --miss-mask and --pack.
 void add_map_options(CLI::App& verb, MapRequest& request);
 
-/// Checks the file of the mask of misses. \throw InputError if it is not a .png, would replace a map or lacks the tiles
-/// of the output, or if there is no high mesh; as AtomicFile if it cannot be written.
+/// Checks the file of the miss mask. \throw InputError if the file is not a .png, if it could replace a map, if <UDIM>
+/// is in the name of only one of mask and output, or if there is no high mesh; what AtomicFile throws if the file
+/// cannot be written.
 void check_miss_mask(const MapRequest& request, const std::string& output);
 
 /// The names of the attributes: "ao, normal".

@@ -24,7 +24,8 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Returns the result of `work`. Rethrows its InputError as UsageError: the command line is at fault, not a file.
+/// Returns the result of `work`. Rethrows an InputError as UsageError, for work where the command line is at fault, not
+/// a file.
 template <class Work>
 decltype(auto) as_usage(const Work& work) {
     try {
@@ -49,7 +50,7 @@ CLI::Validator parsable(const Parse& parse) {
         "");
 }
 
-/// Adds an option that takes one of the given words.
+/// Adds an option that takes the words of `choices`, and sets `value` to the choice for the word.
 template <class T>
 CLI::Option* add_choice(CLI::App& verb, const std::string& name, T& value,
                         const std::vector<std::pair<std::string, T>>& choices, const std::string& description) {
@@ -85,7 +86,7 @@ void add_run_options(CLI::App& verb, CommonOptions& options);
 /// Adds the run options and --json.
 void add_common_options(CLI::App& verb, CommonOptions& options);
 
-/// A length that is not in vx. \throw InputError "takes <forms>, not '<text>'" for any other text.
+/// Parses a length that is not in vx. \throw InputError "takes <forms>, not '<text>'" for any other text.
 Length length_without_vx(const std::string& text, std::string_view forms);
 
 /// Adds --radius.
@@ -100,14 +101,14 @@ void add_point_size(CLI::App& verb, std::optional<Length>& size);
 /// Adds --grid-name.
 void add_grid_names(CLI::App& verb, std::vector<std::string>& names);
 
-/// Adds an option for three numbers, such as `1,2.5,-3`. A direction must not be 0,0,0.
+/// Adds an option that takes three numbers, such as `1,2.5,-3`. A direction must not be 0,0,0.
 enum class Triple { point, direction };
 CLI::Option* add_triple(CLI::App& verb, const std::string& name, std::optional<Vec3d>& value, Triple kind,
                         const std::string& description);
 
 /// A method and its parameters from --method, --samples, --rays, --seed and --set.
 struct MethodRequest {
-    std::string method; ///< empty: not given
+    std::string method; ///< empty: no --method
     std::vector<std::pair<std::string, double>> parameters{};
     std::optional<std::uint32_t> seed{};
 };
@@ -120,11 +121,11 @@ std::string method_names();
 /// The extension of a file name in lower case, with the dot.
 std::string extension(const std::string& file);
 
-/// Checks the name of a grid to write. \throw UsageError unless the name ends in .vdb; as AtomicFile if the file cannot
-/// be written.
+/// Checks the name of a grid to write. \throw UsageError unless the name ends in .vdb; what AtomicFile throws if the
+/// file cannot be written.
 void check_grid_output(const std::string& file);
 
-/// Prints a line to stdout. Like messages on stderr, it does not show control characters of names.
+/// Prints a line to stdout. As in messages on stderr, control characters (in names) are printed as '?'.
 void say(std::string_view line);
 
 /// Prints one line per warning to stderr, unless quiet.
@@ -136,7 +137,7 @@ void print_json(const nlohmann::ordered_json& object, bool in_one_line = false);
 /// "solid" or "sheet".
 std::string_view name_of(Sign sign);
 
-// Each of these functions adds a verb to the program. The callback of the verb runs it.
+// Each of these functions adds a verb to the program, with a callback that runs the verb.
 void add_bake(CLI::App& program);
 void add_render(CLI::App& program);
 void add_voxelize(CLI::App& program);

@@ -1,4 +1,4 @@
-/// Progress on stderr with the remaining time, for work that takes more than a second.
+/// Shows progress and the remaining time on stderr, for work that takes more than a second.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@ namespace alcove::cli {
 
 enum class ProgressMode { automatic, bar, plain, none };
 
-/// Whether the last line of stderr is a progress bar, and the text that clears it. For code that ends the program.
+/// Whether the last line of stderr is a progress bar, and the text that clears it; for code that ends the program.
 inline std::atomic<bool> bar_is_shown{false};
 inline constexpr std::string_view clear_bar = "\r\033[K";
 

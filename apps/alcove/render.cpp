@@ -61,8 +61,8 @@ Camera camera_of(const Options& options, const Scene& scene, const BuiltScene& b
     return make_camera(scene.camera, swept(built.points, axis_of(scene, built)), size);
 }
 
-/// Refuses an image that would clearly exceed the time limit. `draw` renders an image of the given size. The time is
-/// estimated from two images, with 1/16 and 1/64 of the width and height.
+/// Refuses an image that would clearly exceed the time limit. `draw` renders an image of a size that it is given. The
+/// time is estimated from two images, with 1/16 and 1/64 of the width and height.
 void check_time(ImageSize size, const std::function<void(ImageSize)>& draw) {
     const Deadline deadline(seconds_left());
     if (!deadline.is_set())
@@ -72,7 +72,7 @@ void check_time(ImageSize size, const std::function<void(ImageSize)>& draw) {
         return ImageSize{std::max(static_cast<int>(by * size.width), 1),
                          std::max(static_cast<int>(by * size.height), 1)};
     };
-    // The difference excludes work whose time does not depend on the size.
+    // The difference between the two times excludes work whose time does not depend on the size.
     const ImageSize small = scaled(1.0 / 16.0), smaller = scaled(1.0 / 64.0);
     const double less = shared_seconds_of([&] { draw(smaller); });
     const double more = shared_seconds_of([&] { draw(small); });
@@ -179,7 +179,7 @@ class RenderJob {
                "aim at a part with --eye and --look-at";
     }
 
-    /// A further fix to suggest in an error message, for a camera inside a room.
+    /// A further fix for the warning to suggest, in case the solid is a room.
     std::string room_fix() const {
         const std::string kind = extension(options_.scene.input);
         return kind == ".vdb"    ? ""

@@ -34,7 +34,7 @@ ImageSize parse_size(const std::string& text) {
 void check_size(const Scene& scene, PassSet passes) {
     const ImageSize& size = scene.size;
     const ImageMethod* const method = scene.occlusion.image_method;
-    // Memory for the image, and for the buffers of an image method or, later, for the encoded image.
+    // The image takes memory, and so do the buffers of an image method or, later, the encoded image.
     const double image_bytes = Image::bytes_per_pixel(passes);
     const double bytes_per_pixel = image_bytes + std::max(image_bytes, method ? method->bytes_per_pixel : 0.0);
     const double bytes = bytes_per_pixel * size.width * size.height;

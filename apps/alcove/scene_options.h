@@ -31,8 +31,8 @@ struct SceneRequest {
 /// Adds the input and the options of SceneRequest.
 void add_scene_options(CLI::App& verb, SceneRequest& request);
 
-/// Reads a scene (.toml), or makes one with a ground plane for a level set (.vdb) or a mesh (any other file). `passes`
-/// determine the memory of the image, which is limited. \throw UsageError; as read_scene().
+/// Reads a scene (.toml), or makes a scene with a ground plane from a level set (.vdb) or a mesh (any other file).
+/// `passes` determine the memory of the image, which is limited. \throw UsageError, and what read_scene() throws.
 Scene requested_scene(const SceneRequest& request, PassSet passes);
 
 }

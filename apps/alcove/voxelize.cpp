@@ -37,7 +37,7 @@ Length lattice_length(const std::string& text) {
     return length;
 }
 
-/// A length, or the lattice of the finest level set of a .vdb.
+/// The lattice of a voxel length, or of the finest level set of a .vdb.
 std::optional<Lattice> lattice_of(const std::string& text) {
     if (text.empty())
         return {};

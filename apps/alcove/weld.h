@@ -1,4 +1,4 @@
-/// The option --weld, and a check of the inputs that such options accept.
+/// The option --weld, and a check that refuses points for it and similar options.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -15,7 +15,7 @@ namespace alcove::cli {
 /// Adds --weld (empty: not given).
 void add_weld_option(CLI::App& verb, std::optional<Length>& weld);
 
-/// Checks that the mesh has faces. \throw UsageError if it has none: the option is not for points.
+/// Checks that the mesh has faces. \throw UsageError if it has none, because the option is not for points.
 void check_has_faces(const Mesh& mesh, const std::string& file, const std::string& option);
 
 /// Reads a mesh as read_mesh() does, and joins its vertices if `weld` is set. Do not write this mesh: its `source` is
