@@ -58,7 +58,7 @@ std::vector<std::uint32_t> checked(const py::array& array, std::size_t limit, co
 
 std::vector<std::uint32_t> indices(const py::object& object, std::size_t limit, const std::string& argument) {
     const py::array array = numeric(object, argument, "iu", "whole numbers");
-    // The usual types are not copied. All others are converted to 64 bits.
+    // The usual types are not copied. All other types are converted to 64 bits.
     if (py::isinstance<py::array_t<std::uint32_t>>(array))
         return checked<std::uint32_t>(array, limit, argument);
     if (py::isinstance<py::array_t<std::int32_t>>(array))

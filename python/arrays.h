@@ -1,4 +1,4 @@
-/// NumPy arrays in and out, with messages that name the argument.
+/// Converts NumPy arrays from and to C++, with messages that name the argument.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -14,15 +14,15 @@ namespace alcove::python {
 namespace py = pybind11;
 
 /// Rows of `columns` numbers each, as C-contiguous doubles or floats; copied only if the array has another layout or
-/// type.
-/// \throw py::type_error for other kinds of values, py::value_error for another shape; both messages name `argument`.
+/// type. \throw py::type_error for values that are not numbers, py::value_error for the wrong shape; both messages name
+/// `argument`.
 template <class T>
 py::array_t<T, py::array::c_style> rows(const py::object& array, py::ssize_t columns, const std::string& argument);
 
 /// Whole numbers in [0, limit). \throw as rows()
 std::vector<std::uint32_t> indices(const py::object& array, std::size_t limit, const std::string& argument);
 
-/// An array that owns the vector, without a copy. With one column, it has one dimension.
+/// An array that takes over the vector without a copy. If there is one column, the array has one dimension.
 py::array_t<float> to_array(std::vector<float> values, std::size_t columns = 1);
 
 /// A read-only view of memory that `owner` keeps alive.

@@ -1,4 +1,4 @@
-/// The parts of the module.
+/// The parts of the module that other files define.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -10,7 +10,8 @@ namespace alcove::python {
 void add_mesh(pybind11::module_& module);
 void add_field(pybind11::module_& module);
 
-/// A Mesh, or (vertices, faces), or points (vertices, None). \throw py::type_error that names `argument`
+/// The mesh that `object` is or describes: a Mesh, a pair (vertices, faces), or points (vertices, None). \throw
+/// py::type_error that names `argument`
 Mesh to_mesh(const pybind11::object& object, const std::string& argument);
 
 }

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t grain = 4096;
 
-/// Runs work on points; for few points, avoids the cost of another thread.
+/// Runs `work`, which processes this many points. For few points, runs it on this thread, to avoid the cost of another.
 void run_on(std::size_t points, const std::function<void()>& work) {
     constexpr std::size_t few = 256;
     if (points > few)
@@ -38,7 +38,7 @@ void run_on(std::size_t points, const std::function<void()>& work) {
     work();
 }
 
-/// A field in unit space with the frame of its scene.
+/// A field in unit space, and the frame of its scene.
 struct SceneField {
     AnyField field;
     Frame frame;
@@ -82,7 +82,7 @@ SceneField of_mesh(const py::object& object, const py::object& radius, const py:
     return *std::move(field);
 }
 
-/// Calls f(points in unit space, index of the first one) for blocks of points.
+/// Calls f(points in unit space, index of the first point) for each block of points.
 template <class F>
 void for_blocks(const SceneField& self, const double* positions, std::size_t count, const F& f) {
     parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {

@@ -13,12 +13,12 @@
 namespace alcove::python {
 namespace {
 
-/// Arguments of bake(), bake_maps() and add() that have the names of options.
+/// Arguments of bake(), bake_maps() and add() that have the same names as options of the program.
 constexpr std::array<std::string_view, 24> arguments{
     "attributes", "color",   "error",      "ground", "high",   "margin", "method", "normals",
     "point_size", "quality", "radius",     "reach",  "seed",   "sign",   "size",   "space",
     "subsamples", "threads", "time_limit", "up",     "uv_set", "via",    "voxel",  "weld"};
-/// Options that have other names in the module.
+/// Options of the program that have other names in the module.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> others{{{"max_memory", "limit_memory()"},
                                                                                {"max_read", "limit_reading()"},
                                                                                {"occluder", "occluders"},
@@ -32,7 +32,7 @@ bool contains(const Range& range, const T& value) {
     return std::find(std::begin(range), std::end(range), value) != std::end(range);
 }
 
-/// Whether a word after an option is its value, and not the next word of the sentence.
+/// Whether a word after an option is the value of the option, rather than the next word of the sentence.
 bool is_value(const std::string& word) {
     constexpr std::array<std::string_view, 9> words{"auto", "file", "angle", "area", "grid",
                                                     "mesh", "none", "solid", "sheet"};

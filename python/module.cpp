@@ -50,7 +50,7 @@ T word(const std::string& text, const std::vector<std::pair<std::string, T>>& ch
 BakeProgress progress_for(const py::object& callback) {
     if (callback.is_none())
         return {};
-    // Shared, so that copies of the function need no GIL.
+    // Shared, so that copying the function does not need the GIL.
     return [kept = std::make_shared<py::object>(callback)](std::string_view work, double done) {
         const py::gil_scoped_acquire acquired;
         (*kept)(std::string(work), done);
@@ -73,7 +73,7 @@ py::object values_of(const py::object& self, Channel channel) {
     return view(values.data(), shape, self);
 }
 
-/// The options of bake() by name.
+/// The options of bake(), from their values by name.
 BakeOptions options_of(const py::dict& values) {
     BakeOptions options;
     const auto find = [&](const char* name) -> py::object {
@@ -150,7 +150,7 @@ BakeOptions options_of(const py::dict& values) {
     return options;
 }
 
-/// The mesh of an argument, made if it is a pair of arrays.
+/// The mesh of an argument; made from arrays if the argument is a pair of arrays.
 class MeshArgument {
   public:
     explicit MeshArgument(const py::object& object) : object_(object) {

@@ -21,7 +21,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// A thread that does one piece of work after another, as long as the process runs.
+/// A thread that does one piece of work after another for as long as the process runs.
 class Worker {
   public:
     Worker() {
@@ -59,7 +59,7 @@ class Lease {
   public:
     Lease() {
         if (std::exchange(process, getpid()) != getpid())
-            idle.clear(); // after a fork, which copies no threads
+            idle.clear(); // after a fork, because it copies no threads
         if (idle.empty())
             idle.push_back(new Worker); // never freed: its thread has no end
         worker_ = idle.back();

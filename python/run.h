@@ -1,4 +1,4 @@
-/// Long work that Ctrl-C can end.
+/// Runs long work that Ctrl-C can end.
 #pragma once
 
 #include <functional>
@@ -7,11 +7,12 @@ namespace alcove::python {
 
 enum class Gil {
     released,
-    kept, ///< so that no other thread of Python changes the data that the work reads
+    kept, ///< so that no other Python thread changes the data that the work reads
 };
 
-/// Calls `work` on another thread and waits for it, while this thread handles signals. If a handler raises, as that of
-/// Ctrl-C does, the work is cancelled and the exception of the handler is thrown. \throw what `work` throws
+/// Calls `work` on another thread and waits for it, while this thread handles signals. If a signal handler raises, as
+/// the handler of Ctrl-C does, the work is cancelled and the exception of the handler is thrown. \throw what `work`
+/// throws
 void run(const std::function<void()>& work, Gil gil = Gil::released);
 
 }
