@@ -1,4 +1,4 @@
-"""Bakes arrays with the Python module `alcove`, or else with the program."""
+"""Bakes arrays with the Python module `alcove`, or with the program if the module cannot be imported."""
 import json
 import os
 import shutil
@@ -23,7 +23,7 @@ class Failed(Exception):
 
 
 class Surface:
-    """Polygons in world coordinates: vertices (n, 3), corners, offsets, and per corner normals and UVs."""
+    """Polygons in world coordinates: vertices (n, 3), corners, offsets, and a normal and UV per corner."""
 
     def __init__(self, vertices, corners, offsets, normals=None, uvs=None):
         self.vertices = np.ascontiguousarray(vertices, np.float64)
@@ -176,7 +176,7 @@ class Bake:
             baked = self._module(alcove.bake, (surface.vertices, (surface.corners, surface.offsets)), points=points)
             self._keep(baked)
             return baked.ao
-        # A vertex per corner: each gets the value that its own face has there.
+        # With a vertex per corner, each corner gets the value for its own face.
         corners = np.arange(len(surface.corners), dtype=np.uint32)
         return self._program(surface.vertices[surface.corners], corners, surface.offsets, surface.normals)
 
@@ -189,7 +189,7 @@ class Bake:
             return read_ao(target, len(vertices))
 
     def image(self, surface, others, width, height):
-        """Bakes an image. Returns values for pixels(): rows from the bottom, as in Blender, or the bytes of an .exr."""
+        """Bakes an image. Returns what pixels() takes: rows from the bottom, as in Blender, or the bytes of an .exr."""
         if alcove is not None:
             mesh = alcove.Mesh(surface.vertices, (surface.corners, surface.offsets), corner_normals=surface.normals,
                                corner_uvs=surface.uvs)
@@ -218,7 +218,7 @@ class Bake:
 
     @staticmethod
     def pixels(values, width, height):
-        """The texels of a result of image(). For the main thread only, as it may use Blender's data."""
+        """The texels of a result of image(). Call it only on the main thread, because it may use Blender's data."""
         if not isinstance(values, bytes):
             return np.asarray(values)
         import bpy

@@ -20,7 +20,7 @@ def corner_normals(mesh, to_world):
 
 
 def surface_of(thing, depsgraph, needs_normals=True, needs_uvs=False):
-    """The mesh of an object with its modifiers, in world coordinates. Normals take as long as all else."""
+    """The mesh of an object with its modifiers applied, in world coordinates. Normals take as long as the rest."""
     evaluated = thing.evaluated_get(depsgraph)
     mesh = evaluated.to_mesh()
     try:
@@ -47,7 +47,7 @@ def surface_of(thing, depsgraph, needs_normals=True, needs_uvs=False):
         offsets = np.append(starts, len(corners))
         surface = backend.Surface(places, corners, offsets, normals, uvs)
         surface.order = None
-        if mirrored:  # keeps the front outside
+        if mirrored:  # mirroring turns faces inside out
             order = np.concatenate([np.arange(a, b)[::-1] for a, b in zip(offsets[:-1], offsets[1:])])
             surface.order = order
             surface.corners = surface.corners[order]
@@ -59,7 +59,7 @@ def surface_of(thing, depsgraph, needs_normals=True, needs_uvs=False):
 
 
 def nearest_vertices(thing, depsgraph):
-    """For each vertex of the object's own mesh, the nearest vertex of the mesh with modifiers; None if they match."""
+    """For each vertex of the object's own mesh, the nearest vertex of the mesh with modifiers; None if both match."""
     from mathutils.kdtree import KDTree
 
     evaluated = thing.evaluated_get(depsgraph)
@@ -87,7 +87,7 @@ def active_image(thing):
 
 
 def write_values(mesh, name, domain, values, as_color):
-    """Writes values to an attribute; replaces one of the same name and another type."""
+    """Writes values to an attribute; replaces an attribute with the same name but another type or domain."""
     if as_color:
         layer = mesh.color_attributes.get(name)
         if layer is None or layer.domain != domain or layer.data_type != "FLOAT_COLOR":
@@ -154,11 +154,11 @@ class OBJECT_OT_bake_alcove_ao(bpy.types.Operator):
         self.done = done
 
     def compute(self):
-        """The slow part, without access to Blender's data."""
+        """The slow part. It does not access Blender's data."""
         if self.target == "IMAGE":
             return self.bake.image(self.surfaces[0], self.others, *self.size)
         joined = backend.Surface.joined(self.surfaces)
-        # Values at corners of the evaluated mesh fit no other mesh.
+        # Values at the corners of a mesh with modifiers fit the object's own mesh only if both match.
         if self.target == "CORNER" and all(nearest is None for nearest in self.nearest):
             return self.bake.corners(joined)
         return self.bake.vertices(joined)
