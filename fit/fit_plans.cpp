@@ -1,10 +1,10 @@
-/// Measures the errors and costs that the planner chooses by, and writes the table that the library is compiled with.
-/// It uses the meshes that calibrated is trained on, and two finer ones for costs only.
+/// Measures the errors and costs by which the planner chooses, and writes the table that is compiled into the library.
+/// Uses the meshes on which calibrated is trained, and two finer meshes for costs only.
 ///
 ///     cmake --build build --target alcove_fit_plans && build/fit/alcove_fit_plans
 ///
-/// Run this in a checkout whose meshes tools/setup.sh has unpacked; it takes a few minutes on one core. The costs
-/// depend on the machine it runs on, but plans depend only on their ratios.
+/// Run this program in a checkout where tools/setup.sh has unpacked the meshes; it takes a few minutes on one core. The
+/// costs depend on the machine, but plans depend only on ratios of costs.
 #include "meshes.h"
 
 #include "alcove/bake/detail/pilot.h"
@@ -48,7 +48,7 @@ constexpr TruthOptions truth_options{.rays = 512, .most = 4000, .labels = labels
 constexpr double min_deviation = 0.01;     // smallest deviation of a truth for which errors count
 constexpr std::size_t min_vertices = 2000; // smallest mesh for which seconds per vertex count
 constexpr int rays_timed = 64;
-constexpr double reference_doublings = 17.0; // log2 of the triangles that reference ray costs are given for
+constexpr double reference_doublings = 17.0; // log2 of the number of triangles for which ray costs are given
 
 /// Errors and costs of one method on all meshes.
 struct MethodFigures {
@@ -100,7 +100,7 @@ class PlanTable {
                 for (std::size_t m = 0; m < methods.size(); ++m) {
                     const Measurement measured =
                         measure(mesh, truth, &grid, choose(find_method(methods[m].first), methods[m].second));
-                    // The fit to the labels takes as long for many vertices as for few.
+                    // Leave out the time of the fit to the labels, which does not depend on the number of vertices.
                     const double seconds =
                         measured.method == "calibrated"
                             ? measure(mesh, unlabelled, &grid, choose(find_method(methods[m].first), methods[m].second))
@@ -203,7 +203,7 @@ inline constexpr std::array<Row, {}> rows{{{{
         return seconds / triangles;
     }
     using GridCosts = Eigen::Matrix<double, 5, 1>;
-    /// Least-squares fit that minimizes the relative errors of the predicted seconds of each grid.
+    /// A least-squares fit that minimises the relative errors of the seconds predicted for each grid.
     GridCosts grid_costs() const {
         Eigen::MatrixXd terms(costs_.grid.size(), 5);
         for (std::size_t i = 0; i < costs_.grid.size(); ++i) {

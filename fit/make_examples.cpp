@@ -1,10 +1,11 @@
-/// Makes the examples that the networks of `calibrated` are trained on, and those that they are evaluated on.
+/// Makes the examples on which the networks of `calibrated` are trained, and those on which they are evaluated.
 ///
 ///     alcove_fit_examples FOLDER [SCENES]
 ///
-/// Writes train.bin, from the fitted half of the meshes and from random scenes, and test.bin, from the other half.
-/// A row of a file has the inputs of each network as 16-bit numbers (−1 is 0 and 1.5 is 65535), then as 32-bit floats
-/// the condition, the radius, the reference ao, and the index of the mesh or scene. Takes about ten minutes.
+/// Writes train.bin, from the fitted half of the meshes and from random scenes, and test.bin, from the other half. A
+/// row of a file contains the inputs of each network as 16-bit numbers (−1 is stored as 0, and 1.5 as 65535), then the
+/// condition, the radius, the reference ao, and the index of the mesh or scene as 32-bit floats. Takes about ten
+/// minutes.
 #include "meshes.h"
 #include "scenes.h"
 
@@ -34,7 +35,7 @@ class ExampleFile {
   public:
     explicit ExampleFile(const std::string& path) : file_(path, std::ios::binary) {}
 
-    /// Adds the surfels of a batch, which share the radius.
+    /// Adds the surfels of a batch, all with the same radius.
     void add(const LevelStack& field, const SurfelBatch& batch, float radius, std::span<const float> ao, int scene) {
         const float probed = std::min(radius, 1.0f);
         CalibratedInputs<ThirteenProbes> small;
@@ -69,7 +70,8 @@ class ExampleFile {
     std::size_t rows_ = 0;
 };
 
-/// A mesh in unit space with surfels, and for each of them the distances at which rays hit.
+/// A mesh with surfels, and for each surfel the distances at which its rays hit. Surfels and distances are in unit
+/// space.
 class LabelledMesh {
   public:
     LabelledMesh(const Mesh& of, std::vector<Surfel> at, int rays)
@@ -118,8 +120,8 @@ class LabelledMesh {
     std::vector<float> distances_;
 };
 
-/// Random vertices (a share of `of_vertices`), and random points of faces with the normal of the face or an
-/// interpolated one.
+/// Random surfels: a share `of_vertices` are vertices, the others are points of faces, with the normal of the face or
+/// an interpolated normal.
 std::vector<Surfel> random_surfels(const Mesh& mesh, std::size_t count, double of_vertices, std::mt19937& random) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const Frame frame = frame_of(mesh.box());
@@ -157,8 +159,8 @@ std::vector<Surfel> random_surfels(const Mesh& mesh, std::size_t count, double o
     return surfels;
 }
 
-/// Adds `draws` examples per surfel, at random radii from `least` to `most`, and infinite ones if `most` is the
-/// diagonal.
+/// Adds `draws` examples per surfel, at random radii from `least` to `most`, and also at an infinite radius if `most`
+/// is 1.
 void add_random(ExampleFile& file, const LabelledMesh& labelled, const GridOptions& grid, SignChoice sign, float least,
                 float most, int draws, int scene, std::mt19937& random) {
     const LevelStack field(voxelize(labelled.mesh, labelled.triangles, {.grid = grid, .sign = sign}));

@@ -21,7 +21,7 @@ namespace {
 constexpr double turn = 2.0 * std::numbers::pi;
 using Matrix = glm::dmat3;
 
-/// Random numbers of a scene.
+/// Draws the random numbers of a scene.
 class Chance {
   public:
     explicit Chance(std::mt19937& random) : random_(random) {}
@@ -166,7 +166,7 @@ Mesh unit_cube() {
     return blocks({{{-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}}}, [](const auto&) { return true; });
 }
 
-/// Planes at random distances: some as close as the two sides of a wall.
+/// Planes at random distances, some of them as close as the two sides of a wall.
 std::vector<double> random_cuts(Chance& chance, int cells) {
     std::vector<double> cuts{0.0};
     for (int i = 0; i < cells; ++i)
@@ -207,7 +207,7 @@ Mesh block_part(Chance& chance) {
     return blocks(cuts, [&](const std::array<int, 3>& c) { return cell(c) != 0; });
 }
 
-/// A closed ring of (radius, height) turned around the z axis: a tube, a torus, a shaft, a gear.
+/// A closed ring of points (radius, height), turned around the z axis: a tube, a torus, a shaft or a gear.
 Mesh lathe(const std::vector<std::array<double, 2>>& ring, int around, double teeth, double depth, const Noise& noise) {
     Mesh mesh;
     const auto count = static_cast<int>(ring.size());
@@ -244,11 +244,11 @@ Mesh primitive(Chance& chance) {
         }
         return lathe(ring, around, 0.0, 0.0, noise);
     }
-    // A profile of steps, with or without a bore; radii change suddenly or smoothly.
+    // A profile of steps, with or without a bore. Its radius changes suddenly or smoothly.
     const int steps = chance.whole(1, 7);
     const bool smooth = chance.happens(0.4);
     const double bore = kind == 3 ? 0.0 : chance.between(0.02, 0.3), height = chance.scale(0.1, 1.5);
-    double wall = kind == 5 ? chance.scale(0.006, 0.05) : 0.0; // of a shell
+    double wall = kind == 5 ? chance.scale(0.006, 0.05) : 0.0; // thickness of a shell
     ring.push_back({bore, -0.5 * height});
     double radius = 0.0;
     for (int step = 0; step <= steps; ++step) {

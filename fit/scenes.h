@@ -1,4 +1,4 @@
-/// Random scenes that the networks of `calibrated` are trained on.
+/// Random scenes on which the networks of `calibrated` are trained.
 #pragma once
 
 #include "alcove/grid/voxelize.h"
@@ -17,9 +17,9 @@ struct TrainingScene {
     SignChoice sign = SignChoice::automatic;
 };
 
-/// A scene made of `meshes`, each with its centre at the origin and a diagonal of 1, or of generated shapes: a
-/// stretched mesh, a displaced one, several meshes together, primitives together, a corner of a room, or a machine part
-/// built from blocks, with pockets, ribs and walls.
+/// A random scene made of `meshes`, which have their centres at the origin and a diagonal of 1, or of generated shapes:
+/// a stretched mesh, a displaced mesh, several meshes together, several primitives together, a corner of a room, or a
+/// machine part built from blocks, with pockets, ribs and walls.
 TrainingScene random_scene(std::span<const Mesh> meshes, std::mt19937& random);
 
 /// The mesh in a random orientation.

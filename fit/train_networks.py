@@ -16,9 +16,10 @@ import time
 import numpy
 import torch
 
-# Normal probes, azimuths and probes at each azimuth, as in calibrated_probes.h, in the order of a row.
+# The number of probes along the normal, of azimuths, and of probes at each azimuth, as in calibrated_probes.h. The
+# networks are in the order of their inputs in a row.
 NETWORKS = {13: (5, 4, 2), 38: (6, 8, 4), 63: (7, 8, 7)}
-# Sizes of the layers: at each azimuth (two layers), and for the whole surfel.
+# The sizes of the layers: two layers at each azimuth, and one for the whole surfel.
 LAYERS = {13: (16, 16, 32), 38: (16, 16, 32), 63: (24, 16, 32)}
 RADII = (0.02, 0.05, 0.1, 0.2, 0.5, math.inf)
 ROW = numpy.dtype([("inputs", "<u2", sum(NETWORKS)), ("condition", "<f4", 2), ("radius", "<f4"), ("ao", "<f4"),
