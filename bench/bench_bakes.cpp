@@ -1,7 +1,7 @@
-/// Whole bakes on one core, from an indexed mesh to one value per vertex: normals, the grid and the BVH if the method
-/// needs them, and occlusion. The radius is a tenth of the diagonal; the meshes are a scan of about 100,000 vertices
-/// and its subdivision. For comparison: Embree alone with ray streams, and `classic` by OpenVDB alone, on a single
-/// level of the same voxel and of one twice as wide.
+/// Measures whole bakes on one core, from an indexed mesh to one value per vertex: normals, the grid and the BVH if the
+/// method needs them, and occlusion. The radius is a tenth of the diagonal; the meshes are a scan of about 100,000
+/// vertices and its subdivision. For comparison: Embree alone with ray streams, and `classic` by OpenVDB alone, on a
+/// single level with the same voxel and on one with a voxel twice as wide.
 ///
 ///     build/bench/bench_bakes --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/field/level_stack.h"

@@ -1,7 +1,7 @@
-/// The cost of occlusion alone, with the grid and the BVH built in advance: every method of the catalog at its
+/// Measures the cost of occlusion alone, with the grid and the BVH built in advance: every method of the catalog at its
 /// defaults, on a scan of about 100,000 vertices, on one core, at a radius of a tenth of the diagonal. For comparison:
 /// Embree with 16 and 64 rays per vertex, and the five probes of `classic` through the samplers of OpenVDB and NanoVDB,
-/// one at a time, on a single level of the same voxel. The counters `map` and `rays` are per vertex.
+/// one probe at a time, on a single level with the same voxel. The counters `map` and `rays` are per vertex.
 ///
 ///     build/bench/bench_estimators --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/grid/voxelize.h"

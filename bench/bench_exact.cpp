@@ -1,6 +1,6 @@
-/// The cost of exact rays: 64 for every vertex of a scan of about 100,000 vertices, on one core. The argument is the
-/// radius in percent of the diagonal. For comparison: the same rays one at a time through Embree itself, and the
-/// construction of the BVH.
+/// Measures the cost of exact rays: 64 rays for every vertex of a scan of about 100,000 vertices, on one core. The
+/// argument is the radius in percent of the diagonal. For comparison: the same rays one at a time through Embree
+/// itself, and the construction of the BVH.
 ///
 ///     build/bench/bench_exact --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/occlusion/methods/exact.h"

@@ -1,7 +1,7 @@
-/// The cost of a map() call: five probes along the normal of every vertex of a scan of about 100,000 vertices, on one
-/// core, with 128 voxels along the diagonal, a band of 5 voxels, and the vertices in file order and in the order that
-/// bakes use. For comparison: the samplers of OpenVDB and NanoVDB, and as a baseline a scalar trilinear fetch from a
-/// dense array.
+/// Measures the cost of a map() call: five probes along the normal of every vertex of a scan of about 100,000 vertices,
+/// on one core. There are 128 voxels along the diagonal and a band of 5 voxels; the vertices are in file order, and in
+/// the order that bakes use. For comparison: the samplers of OpenVDB and NanoVDB, and as a baseline a scalar trilinear
+/// fetch from a dense array.
 ///
 ///     build/bench/bench_map --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/field/detail/bricks.h"

@@ -1,6 +1,7 @@
-/// The cost of converting an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: voxelize(),
-/// and for comparison openvdb::tools::meshToVolume with its default flags, on a scan of 26,002 vertices and its
-/// subdivisions of 104,002 and 416,002. Compare CPU times; with two threads, compare real times.
+/// Measures the cost of converting an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: by
+/// voxelize(), and for comparison by openvdb::tools::meshToVolume with its default flags. The meshes are a scan of
+/// 26,002 vertices, and its subdivisions with 104,002 and 416,002. Compare CPU times; with two threads, compare real
+/// times.
 ///
 ///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/base/parallel.h"
@@ -17,7 +18,7 @@ VoxelizeOptions options(const benchmark::State& state) {
     VoxelizeOptions result;
     result.grid.voxel = 1.0f / static_cast<float>(state.range(1));
     result.grid.outer_band = result.grid.inner_band = band;
-    result.grid.radius = (band - 1.0f) * result.grid.voxel; // one level
+    result.grid.radius = (band - 1.0f) * result.grid.voxel; // a single level
     return result;
 }
 

@@ -1,4 +1,4 @@
-// Reads a mesh and writes it again, without baking: copy_mesh IN OUT. Prints the peak of resident bytes.
+// Reads a mesh and writes it again, without baking: copy_mesh IN OUT. Prints its peak memory in bytes.
 #include "alcove/base/detail/memory.h"
 #include "alcove/mesh/files.h"
 

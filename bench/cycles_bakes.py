@@ -5,7 +5,7 @@
         build/alcove_blender.zip build/alcove [--module build/python] [--quality good] | grep "RMSE 0"
 
 Both bake the same scenes with the same radius. Errors are RMSE against exact rays of the program, 4,096 per vertex.
-The samples of Cycles are increased in steps of a quarter until its error equals that of the add-on. Times are
+The samples of Cycles are increased in steps of a quarter until its error is at most that of the add-on. Times are
 wall-clock seconds of the whole operators (for the add-on, the shortest of three runs), and CPU seconds including those
 of the program.
 """

@@ -2,10 +2,10 @@
 
     blender --background --factory-startup --python bench/cycles_maps.py -- [--size 2048] MESH.obj | grep ':'
 
-The samples of Cycles are the fewest whose map of 512 x 512 has the RMSE that Alcove's map of 1,024 x 1,024 has against
-512 exact rays. Cycles is compared with its own 1,024 samples, so that other normals and borders do not count as errors.
-Times are CPU seconds on one thread: of the bake operator alone for Cycles, of the whole program for Alcove. Meshes need
-UVs, such as those that bench/unwrap.py writes.
+The samples of Cycles are increased in steps of an eighth until the RMSE of its map of 512 x 512 is at most that of
+Alcove's map of 1,024 x 1,024 against 512 exact rays. The RMSE of Cycles is against its own map of 1,024 samples, so
+that different normals and borders do not count as errors. Times are CPU seconds on one thread: of the bake operator
+alone for Cycles, of the whole program for Alcove. Meshes need UVs, such as those that bench/unwrap.py writes.
 """
 import argparse
 import os
@@ -32,7 +32,7 @@ def cpu_seconds(who):
 
 
 def prepare(mesh):
-    """Imports the mesh, with a material whose image node is active; returns the node."""
+    """Imports the mesh and gives it a material with an active image node; returns the node."""
     bpy.data.objects.remove(bpy.data.objects['Cube'])
     bpy.ops.wm.obj_import(filepath=mesh)
     thing = bpy.context.selected_objects[0]

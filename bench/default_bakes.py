@@ -3,10 +3,11 @@
 
     bench/default_bakes.py [--alcove PROGRAM] [--out FILE.json] [--jobs N] [--repeat N] MESH...
 
-Bakes each mesh in turn with the default, with --via auto and with --via mesh (exact rays), at a radius of 10 % and in
-one thread, and compares ao with that of many exact rays. The costs are the CPU seconds of the whole program. Results
+Bakes each mesh with the default, with --via auto and with --via mesh (exact rays), at a radius of 10 % and on one
+thread, and compares its ao with that of many exact rays. The costs are the CPU seconds of the whole program. Results
 are written to FILE.json as they arrive; those already there for the same build and mesh are not measured again. The
-truths are kept beside FILE.json, in FILE.truths, for all builds: remove them if exact rays themselves change.
+truths (the ao of the exact rays) are kept beside FILE.json, in FILE.truths, and used for all builds: remove them if the
+exact rays themselves change.
 """
 
 import argparse
@@ -28,9 +29,9 @@ from array import array
 
 PLANS = {"default": [], "auto": ["--via", "auto"], "exact": ["--via", "mesh"]}
 TRUTH_SEED = 12345
-MANY_VERTICES = 60000  # from here on, the truth has fewer rays
+MANY_VERTICES = 60000  # beyond this, the truth has fewer rays
 LARGE_SCAN = 200000
-RATIO, SECONDS = 1.5, 0.3  # the default costs too much if it exceeds exact by both the factor and the difference
+RATIO, SECONDS = 1.5, 0.3  # the default costs too much if it exceeds exact by both this factor and this difference
 PLY_TYPES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H",
              "uint16": "H", "int": "i", "int32": "i", "uint": "I", "uint32": "I", "float": "f", "float32": "f",
              "double": "d", "float64": "d"}
@@ -138,7 +139,7 @@ class Measurement:
         return values
 
     def measure(self, mesh):
-        """A record of one mesh."""
+        """Measures one mesh. Returns a record, which says so if the measurement failed."""
         with tempfile.TemporaryDirectory() as folder:
             record = {"mesh": mesh, "content": hash_of(mesh)}
             try:
@@ -156,7 +157,7 @@ class Measurement:
             return record
 
     def bakes(self, mesh, folder):
-        """All plans, in turn; each round begins with a different one."""
+        """Bakes with all plans, in turn. Each round begins with a different plan."""
         plans, cpu = {}, collections.defaultdict(list)
         names = list(PLANS)
         for turn in range(self.repeat):
@@ -177,7 +178,7 @@ class Measurement:
 
 
 class Results:
-    """Records by mesh, in a file that is never half written."""
+    """Records by mesh, kept in a file that is never left half written."""
 
     def __init__(self, file, settings):
         self.file, self.settings, self.records = file, settings, {}

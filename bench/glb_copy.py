@@ -3,8 +3,8 @@
 
     bench/glb_copy.py [--megabytes 100] [--repeat 15] [--program build/bench/alcove_copy_mesh] [FOLDER]
 
-The mesh is dense and has normals. Both programs read it from the page cache and write to FOLDER (default: .), in turns;
-times are medians.
+The mesh is dense and has normals. cp and alcove_copy_mesh read it from the page cache and write to FOLDER (default: .),
+in turn; times are medians.
 """
 import argparse
 import array
@@ -43,7 +43,7 @@ def glb(size):
 
 
 def timed(command, output):
-    """Seconds until the output is on the disk, and what was printed."""
+    """The seconds until the output is on the disk, and what the command printed."""
     begin = time.perf_counter()
     printed = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
     with open(output, 'rb') as file:

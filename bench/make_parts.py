@@ -4,8 +4,8 @@
     bench/make_parts.py [--check] [--scans DIR] OUT_DIR
 
 The parts are typical of CAD exports and game assets, and are written as .stl, .obj and .off in turn. The scans are
-those of the archive, subdivided and roughened, as .ply. Everything is made from fixed seeds. --check reads the files
-back and reports what is wrong with them.
+scans from the archive, subdivided and roughened, and are written as .ply. Everything is made from fixed seeds. --check
+reads the files back and reports what is wrong with them.
 """
 
 import argparse
@@ -69,7 +69,7 @@ def ribbed_box():
 
 @part(closed=True)
 def stepped_shaft():
-    """Steps, chamfers and grooves, in quads as long as the steps."""
+    """A shaft with steps, chamfers and grooves, in quads as long as the steps."""
     profile, z = [(0, 0)], 0.0
     for radius, length in ((8, 30), (6.5, 3), (10, 60), (16, 6), (12, 80), (10.5, 2), (12, 25), (7, 40)):
         profile += [(radius - 0.5, z), (radius, z + 0.5), (radius, z + length - 0.5), (radius - 0.5, z + length)]
@@ -109,7 +109,7 @@ def rack():
 
 @part(closed=True)
 def screw():
-    """A threaded shank in a head with a hexagonal socket."""
+    """A threaded shank that ends inside a head with a hexagonal socket."""
     count, along = 48, 200
 
     def ring(i):
@@ -219,7 +219,7 @@ def coil_spring():
 
 @part(closed=True)
 def letters():
-    """Words of polygons, with coplanar backs."""
+    """Words made of polygons, with coplanar backs."""
     shapes = {
         "E": [(0, 0), (6, 0), (6, 1.6), (2, 1.6), (2, 4.2), (5, 4.2), (5, 5.8), (2, 5.8), (2, 8.4), (6, 8.4), (6, 10),
               (0, 10)],
@@ -255,7 +255,7 @@ def house():
 
 @part(closed=False)
 def crate():
-    """Planks and braces, each face with points and normals of its own."""
+    """Planks and braces. Each face has its own points and normals."""
     result = Mesh()
     for axis in range(3):
         for side, plank in itertools.product((0, 1), range(6)):
@@ -272,7 +272,7 @@ def crate():
 
 @part(closed=False)
 def voxel_blob():
-    """Cubes merged to rectangles, which leaves T-junctions."""
+    """Cubes whose faces are merged into rectangles, which leaves T-junctions."""
     noise = Noise(21)
     n = 18
     cells = {c for c in itertools.product(range(n), repeat=3)
@@ -307,7 +307,7 @@ def voxel_blob():
 
 @part(closed=True)
 def hex_nut():
-    """A chamfered nut with a thread in it, a few millimetres in metres."""
+    """A chamfered, threaded nut of a few millimetres, written in metres."""
     count, height = 48, 8.0
 
     def ring(radius, z):
@@ -350,7 +350,7 @@ def dice():
 
 @part(closed=False)
 def sphere_in_bowl():
-    """A ball in a bowl of one sheet."""
+    """A ball in a bowl that is a single sheet."""
     profile = [(10 * math.sin(angle), -10 * math.cos(angle)) for angle in steps(0, TAU / 4, 30)]
     bowl = lathe(profile, 72, ends=(None, None))
     return joined(bowl, icosphere(6.5, 4).moved(0.5, 0, -3.2))
@@ -358,7 +358,7 @@ def sphere_in_bowl():
 
 @part(closed=True)
 def bottle():
-    """A thin wall of two sides, turned on a lathe."""
+    """A thin wall with two sides, turned on a lathe."""
     outer = [(26 * t, 0.4 * (1 - t)) for t in steps(0, 1, 6)[1:]]
     outer += [(30 + 4 * math.sin(TAU / 4 * t - TAU / 4), 4 * t) for t in steps(0, 1, 6)[1:]]
     outer += [(30 + 0.6 * math.sin(z / 3.0), z) for z in steps(8, 110, 60)]
@@ -386,7 +386,7 @@ def strut_lattice():
 
 @part(closed=True)
 def furnished_room():
-    """A room that faces inwards, with furniture of boxes."""
+    """A room that faces inwards, with furniture made of boxes."""
     def is_air(i, j, _):
         return i > 0 or not 4 <= j < 7  # there is a chimney breast
     room = blocks(steps(0, 5, 18), steps(0, 4, 15), steps(0, 2.6, 10), is_air).flipped()
@@ -403,14 +403,14 @@ def furnished_room():
 
 @part(closed=True)
 def needle_cylinders():
-    """Cylinders of 400 sides with fans for caps, one inside another."""
+    """Cylinders with 280 to 400 sides, some of them one inside another."""
     return joined(cylinder(30, 0, 6, 400), cylinder(22, 5, 90, 360), cylinder(27, 60, 63, 300),
                   lathe([(14, 85), (3, 140)], 380), tube(29.9, 28, 5, 25, 320)).moved(4e4, -2e4, 1e4)
 
 
 @part(closed=False)
 def cubes_on_floor():
-    """Cubes of 24 vertices with normals, some sunk into a floor of one sheet."""
+    """Cubes of 24 vertices with normals, some of them sunk into a floor that is a single sheet."""
     chance = random.Random(29)
     result = sheet(lambda u, v: (100 * u, 100 * v, 0), 24, 24)
     result.normals = [(0, 0, 1)] * len(result.points)
@@ -487,7 +487,7 @@ def honeycomb_panel():
 
 @part(closed=False)
 def corridor():
-    """A tunnel of one sheet, seen from the inside, with ribs, pipes and boxes."""
+    """A tunnel that is a single sheet, seen from the inside, with ribs, pipes and boxes."""
     section = [(-2, 0), (2, 0), (2.6, 1), (2.4, 2.4), (1.4, 3.2), (-1.4, 3.2), (-2.4, 2.4), (-2.6, 1)]
     tunnel = loft([[(x, y, z) for x, y in section] for z in steps(0, 24, 40)], ends=(None, None)).flipped()
     smaller = [(0.9 * x, 0.1 + 0.92 * y) for x, y in section]
@@ -528,7 +528,7 @@ def perforated_sheet():
 
 @part(closed=False)
 def cracked_patches():
-    """A turned body in patches, each with its own sampling, so that there are gaps at the seams."""
+    """A body of revolution in patches. Each patch is sampled differently, so that there are gaps at the seams."""
     def radius(z):
         return 20 + 6 * math.sin(z / 9) + 2 * math.cos(z / 4)
 
@@ -569,7 +569,7 @@ def tree():
 
 @part(closed=False)
 def city_tile():
-    """Ground of one sheet with buildings that stand in it."""
+    """Ground that is a single sheet, with buildings that stand in it."""
     noise, chance = Noise(39), random.Random(39)
 
     def height(x, y):
@@ -667,8 +667,8 @@ def roughened(mesh, seed, octaves=6, wavelength=0.06, amplitude=0.006, gain=0.5)
     """Displaces points along their normals by octaves of value noise.
 
     The first octave has the given wavelength and amplitude, as shares of the diagonal; each further one has half the
-    wavelength and `gain` times the amplitude. A gain of 0.5 gives slopes as steep at each scale, and a power spectral
-    density that falls with the third power of the frequency.
+    wavelength and `gain` times the amplitude. A gain of 0.5 gives equally steep slopes at each scale, and a power
+    spectral density that falls with the third power of the frequency.
     """
     size = diagonal_of(mesh.points)
     layers = [(Noise(seed + i), 2**i / (wavelength * size), amplitude * size * gain**i) for i in range(octaves)]
@@ -804,7 +804,7 @@ def faults(mesh, sizes, closed):
 
 
 def check(file, sizes, closed):
-    """Prints a line about a file, and returns whether it is as it should be."""
+    """Prints a line about a file, and returns whether its mesh has no faults."""
     mesh = read(file)
     found = faults(mesh, sizes, closed)
     size = diagonal_of(mesh.points)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The RMSE of texture maps against exact rays at the same texels, and the RMSE that the bake estimates.
+"""Prints the RMSE of texture maps against exact rays at the same texels, and the RMSE that the bake estimates.
 
-    bench/map_errors.py [--size 1024] [--rays 1024] MESH.obj...
+    bench/map_errors.py [--size 512] [--rays 1024] MESH.obj...
 
 Meshes need UVs, such as those that bench/unwrap.py writes. Uses build/alcove.
 """

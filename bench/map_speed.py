@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the CPU time of texture maps with that of exact rays at every texel, for the same error.
+"""Compares the CPU time of texture maps with that of exact rays at every texel, at the same error.
 
     bench/map_speed.py [--sizes 2048,4096] [--repeat 5] [--alcove PROGRAM] MESH.obj...
 

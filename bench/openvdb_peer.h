@@ -1,4 +1,4 @@
-/// Grids and fields by OpenVDB alone, in unit space.
+/// Grids and fields made by OpenVDB alone, in unit space.
 #pragma once
 
 #include "scan.h"
@@ -22,7 +22,7 @@ struct OpenVdbMesh {
     std::vector<openvdb::Vec3I> triangles;
 };
 
-/// One level with distances up to the radius, with the default flags of meshToVolume.
+/// A single level that stores distances up to the radius, made with the default flags of meshToVolume.
 inline openvdb::FloatGrid::Ptr openvdb_grid(const OpenVdbMesh& mesh, float voxel, float radius) {
     constexpr float inner_band = 2.0f;
     return openvdb::tools::meshToSignedDistanceField<openvdb::FloatGrid>(

@@ -1,4 +1,4 @@
-/// Occlusion by Embree alone, in the most direct way.
+/// Occlusion by the most direct use of Embree.
 #pragma once
 
 #include "alcove/occlusion/methods/exact.h"
@@ -36,7 +36,7 @@ class PlainEmbree {
         stream, ///< rtcOccluded1M, one call per surfel
     };
 
-    /// Returns one value per surfel, with the ray directions of Exact.
+    /// Returns one value per surfel, from rays in the directions of Exact.
     std::vector<float> bake(std::span<const Surfel> surfels, float radius, int rays, Calls calls) const {
         std::vector<float> ao(surfels.size(), 1.0f);
         const CosineLattice lattice(rays);

@@ -1,5 +1,5 @@
-// The error of baked points: samples points of meshes, bakes them, and compares with exact rays on the mesh at the same
-// points. Prints one line per mesh and kind of sampling.
+// Measures the error of baked points: samples points of meshes, bakes the points, and compares them with exact rays on
+// the mesh at the same points. Prints one line per mesh and kind of sampling.
 //
 //     alcove_point_errors MESH... [--points N=100000]
 #include "alcove/bake/bake.h"
@@ -20,7 +20,7 @@ enum class Sampling { uniform, half, noisy };
 
 struct Samples {
     Mesh points;
-    std::vector<SurfacePoint> truth; ///< before noise
+    std::vector<SurfacePoint> truth; ///< the points before noise is added
 };
 
 Samples sampled(const Mesh& mesh, std::size_t count, Sampling sampling) {
@@ -38,7 +38,7 @@ Samples sampled(const Mesh& mesh, std::size_t count, Sampling sampling) {
     std::mt19937_64 random(1);
     std::discrete_distribution<std::size_t> pick(weights.begin(), weights.end());
     std::uniform_real_distribution<double> uniform;
-    constexpr double noise = 0.01; // of the spacing
+    constexpr double noise = 0.01; // relative to the spacing of the points
     std::normal_distribution<double> offset(0.0, noise * std::sqrt(area / static_cast<double>(count)));
     Samples samples;
     for (std::size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-/// Probes above surfels in the order that estimators use: batch by batch, height by height.
+/// Visits probes above surfels in the order that estimators use: batch by batch, height by height.
 #pragma once
 
 #include "alcove/occlusion/estimator.h"

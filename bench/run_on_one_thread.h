@@ -1,4 +1,4 @@
-/// BENCHMARK_MAIN() on one thread.
+/// Like BENCHMARK_MAIN(), but on one thread.
 #pragma once
 
 #include "alcove/base/parallel.h"

@@ -44,7 +44,8 @@ inline std::vector<Vec3> unit_positions(const Scan& scan) {
     return positions;
 }
 
-/// Reports vertices per second and the mean value, which is nearly the same for all methods of the same quantity.
+/// Reports vertices per second and the mean value, which is nearly the same for all methods that compute the same
+/// quantity.
 inline void count_vertices(benchmark::State& state, const std::vector<float>& ao) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ao.size()));
     state.counters["mean_ao"] = std::accumulate(ao.begin(), ao.end(), 0.0) / static_cast<double>(ao.size());

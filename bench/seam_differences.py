@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much a texture map differs between the two sides of its UV seams, compared with a map of exact rays.
+"""Prints how much a texture map differs between the two sides of its UV seams, compared with a map of exact rays.
 
     bench/seam_differences.py [--size 1024] MESH.obj...
 
@@ -20,7 +20,7 @@ STEPS = 5  # points along an edge
 
 
 def seams(path):
-    """Pairs of UV segments: the two sides of each edge whose faces have different UVs there."""
+    """Pairs of UV segments: the two sides of each edge at which its faces have different UVs."""
     uvs, sides, pairs = [], {}, []
     for line in open(path):
         words = line.split()

@@ -37,7 +37,7 @@ class Mesh:
         self.points, self.faces, self.normals = list(points), list(faces), list(normals)
 
     def add(self, *others):
-        """Appends other meshes as shells of their own."""
+        """Appends other meshes as separate shells."""
         for other in others:
             first = len(self.points)
             self.points += other.points
@@ -46,7 +46,7 @@ class Mesh:
         return self
 
     def mapped(self, function):
-        """The mesh with other points, without normals."""
+        """The mesh with the function applied to each point, without normals."""
         return Mesh([function(p) for p in self.points], self.faces)
 
     def moved(self, x, y, z):
@@ -68,7 +68,7 @@ class Mesh:
         return Mesh(map(turn, self.points), self.faces, map(turn, self.normals))
 
     def cycled(self):
-        """The mesh with x turned to y, y to z and z to x."""
+        """The mesh rotated so that x becomes y, y becomes z, and z becomes x."""
         return self.mapped(lambda p: (p[2], p[0], p[1]))
 
     def flipped(self):
@@ -164,7 +164,8 @@ def bridged(loops, points):
 def triangulate(loops):
     """Clips the ears of a polygon with holes, which leaves slivers as CAD programs do.
 
-    `loops` are points: the outline counter-clockwise, the holes clockwise. The triangles index them one after another.
+    `loops` are points: the outline counter-clockwise, the holes clockwise. The triangles are indices
+    into the points of all loops, one loop after another.
     """
     points = list(itertools.chain(*loops))
     starts = itertools.accumulate((len(loop) for loop in loops), initial=0)
@@ -193,7 +194,7 @@ def triangulate(loops):
 
     triangles, left, i, misses = [], len(loop), 0, 0
     while left > 3:
-        if misses > left or is_ear(i):  # where rounding leaves no ear, any corner serves
+        if misses > left or is_ear(i):  # if rounding leaves no ear, any corner will do
             triangles.append((loop[before[i]], loop[i], loop[after[i]]))
             after[before[i]], before[after[i]] = after[i], before[i]
             reflex.discard(i)
@@ -231,7 +232,7 @@ def prism(loops, z0, z1):
 
 
 def loft(rings, wraps=False, ends=("polygon", "polygon")):
-    """Joins closed rings of equally many points. Each end is a polygon, a fan to a point, or None: open."""
+    """Joins closed rings with equal numbers of points. Each end is a polygon, a fan to a point, or open (None)."""
     n = len(rings[0])
     mesh = Mesh(itertools.chain(*rings))
     for i in range(len(rings) if wraps else len(rings) - 1):
@@ -274,7 +275,7 @@ def rod(start, end, radius, count):
 
 
 def sweep(path, section, up, wraps=False):
-    """Moves a section along a path. `up` is parallel to no part of the path."""
+    """Moves a section along a path. `up` must not be parallel to any part of the path."""
     rings = []
     for i, here in enumerate(path):
         before = path[i - 1] if i or wraps else here
@@ -287,7 +288,7 @@ def sweep(path, section, up, wraps=False):
 
 
 def blocks(xs, ys, zs, is_filled):
-    """The surface of the filled cells (i, j, k) between planes."""
+    """The surface of the filled cells (i, j, k) between axis-aligned planes."""
     steps = (len(xs) - 1, len(ys) - 1, len(zs) - 1)
     cells = {cell for cell in itertools.product(*map(range, steps)) if is_filled(*cell)}
     mesh, known = Mesh(), {}
@@ -321,12 +322,12 @@ def steps(first, last, count):
 
 
 def spaced(count, wide, narrow):
-    """Planes between `count` wide cells with narrow ones around each: cell 0 is narrow, 1 wide, 2 narrow, ..."""
+    """The planes of `count` wide cells, each between two narrow cells: cell 0 is narrow, 1 wide, 2 narrow, ..."""
     return list(itertools.accumulate([0.0] + [narrow, wide] * count + [narrow]))
 
 
 def split(mesh, normals):
-    """Each face with points of its own, with or without normals."""
+    """A mesh in which each face has its own points, with or without normals."""
     result = Mesh()
     for face in mesh.faces:
         first = len(result.points)

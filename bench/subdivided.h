@@ -10,7 +10,7 @@
 
 namespace alcove {
 
-/// Splits every triangle in four at the midpoints of its edges.
+/// Splits every triangle into four at the midpoints of its edges.
 inline Mesh subdivided(const Mesh& mesh) {
     Mesh fine;
     fine.positions = mesh.positions;
@@ -44,8 +44,8 @@ inline double value_noise(const Vec3d& p) {
     return sum;
 }
 
-/// Moves the vertices along their normals by noise. The noise is one mean edge high, in waves 16 edges long, plus half
-/// as high, in waves 8 edges long.
+/// Moves the vertices along their normals by noise: waves one mean edge high and 16 edges long, plus waves half as high
+/// and 8 edges long.
 inline Mesh displaced(Mesh mesh) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const std::vector<Vec3> normals = angle_weighted_normals(mesh, triangles);

@@ -3,10 +3,10 @@
 
     bench/thin_parts.py [--alcove PROGRAM] [--keep DIR]
 
-Makes 24 parts: a block with ribs, slits, a thin wall or a second block close by, for thicknesses of 0.5 to 2 voxels
-(1/256 of the diagonal) on less than a tenth of the surface, in arbitrary orientations. Bakes each with traced:64, with
-the voxel fixed and with --voxel auto, which adds partial levels, and prints the RMSE that the pilot measures and how
-much longer and larger the grid is.
+Makes 24 parts: a block with ribs, slits, a thin wall or a second block close by, in arbitrary orientations. These
+features are 0.5 to 2 voxels thick or wide (a voxel is 1/256 of the diagonal) and cover less than a tenth of the
+surface. Bakes each with traced:64, with the voxel fixed and with --voxel auto, which adds partial levels, and prints
+the RMSE that the pilot measures and how much longer and larger the grid is.
 """
 
 import argparse
@@ -26,7 +26,7 @@ THICKNESSES = (0.5, 0.7, 1.0, 1.3, 1.7, 2.0)
 
 
 def lines(*pieces):
-    """The positions of planes, in the steps of the pieces (first, last, count), without repeats."""
+    """The positions of planes: each piece (first, last, count) is divided into steps; repeats are left out."""
     positions = sorted({round(x, 9) for first, last, count in pieces for x in steps(first, last, count)})
     return [x for i, x in enumerate(positions) if i == 0 or x - positions[i - 1] > 1e-7]
 
@@ -82,7 +82,7 @@ def diagonal(mesh):
 
 
 def make(function, thickness, seed, file):
-    """The voxel is a share of the diagonal of the turned part, so the thickness is found in two passes."""
+    """Writes a part. The voxel is a share of the diagonal of the turned part, so two passes find the thickness."""
     t = thickness * VOXEL
     for _ in range(2):
         mesh = turned(function(t), seed)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Unwraps a mesh for tests of texture maps: charts by the axis that a face points along, projected and packed in rows.
+"""Unwraps a mesh for tests of texture maps: projects charts of faces that face the same axis, and packs them.
 
     bench/unwrap.py INPUT.off|.obj OUTPUT.obj [--gap 0.002] [--cells N]
 
@@ -41,7 +41,7 @@ def normal(points, face):
 
 
 def clustered(points, faces, cells):
-    """A coarser mesh: vertices in the same cell become one, `cells` cells along the longest side of the mesh."""
+    """A coarser mesh, in which all vertices in a cell become one; `cells` cells fit along its longest side."""
     low = [min(p[k] for p in points) for k in range(3)]
     cell = max(max(p[k] for p in points) - low[k] for k in range(3)) / cells
     number, sums, vertex_of = {}, [], []
