@@ -30,7 +30,7 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
     const std::size_t blocks = (count + grain - 1) / grain;
     const std::atomic<bool>* const requested = cancel_requested;
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-        const Cancellable scope(requested); // a thread may work for several callers in turn
+        const Cancellable scope(requested); // as a thread may work for several callers in turn
         check_cancelled();
         body(block * grain, std::min(count, (block + 1) * grain));
     });

@@ -1,4 +1,4 @@
-/// Parallel loops. No other header depends on the threading library.
+/// Parallel loops. No header includes the threading library.
 #pragma once
 
 #include <atomic>
@@ -7,14 +7,14 @@
 
 namespace alcove {
 
-/// Called with the share of the work that is done, in [0, 1]; never from two threads at once.
+/// Called with the share of the work that is done, in [0, 1]; never by two threads at once.
 using Progress = std::function<void(double done)>;
 
 /// Thrown by cancelled work. Not a std::exception, so that error handlers do not catch it.
 struct Cancelled {};
 
-/// While this object exists, setting `requested` cancels the work that this thread started. Cancelled is thrown at the
-/// next block of parallel_for() (whichever thread runs it) or at the next check_cancelled().
+/// While this object exists, setting `requested` cancels the work that this thread started. Cancelled is then thrown at
+/// the next block of parallel_for(), whichever thread runs it, or at the next check_cancelled().
 class Cancellable {
   public:
     explicit Cancellable(const std::atomic<bool>* requested); ///< null: never cancelled
@@ -29,9 +29,9 @@ class Cancellable {
 /// \throw Cancelled if the work of this thread is cancelled. Cost: a few instructions.
 void check_cancelled();
 
-/// Calls `body(begin, end)` for disjoint ranges that cover [0, count). Each is at most `grain` long and starts at a
-/// multiple of it, so the ranges do not depend on the number of threads. Blocks until all are done; rethrows an
-/// exception of `body`.
+/// Calls `body(begin, end)` for disjoint ranges that cover [0, count). Each range starts at a multiple of `grain` and
+/// is at most `grain` long, so the ranges do not depend on the number of threads. Returns when all ranges are done;
+/// rethrows an exception of `body`.
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

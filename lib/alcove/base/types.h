@@ -2,9 +2,9 @@
 ///
 /// Two spaces:
 ///  - *scene space*: the coordinates of the file, in double precision. Used by meshes and everything read or written.
-///  - *unit space*: recentred on the bounding box of the mesh and divided by its diagonal D, in single precision. Used
-///    by grids, fields, surfels and radii. A radius of 10 % of D is 0.1, so a bake does not depend on the size and
-///    position of the scene. A Frame converts between the two.
+///  - *unit space*: coordinates relative to the centre of the mesh's bounding box, divided by the diagonal D of the
+///    box, in single precision. Used by grids, fields, surfels and radii. A radius of 10 % of D is 0.1, so a bake does
+///    not depend on the size and position of the scene. A Frame converts between the two spaces.
 ///
 /// Signs: a distance is positive outside, negative inside (in the solid), zero on the surface.
 /// Occlusion values are visibilities in [0, 1]: 1 is unoccluded, 0 fully occluded.
@@ -42,7 +42,7 @@ struct Box {
     double diagonal() const; ///< infinite if it exceeds the range of a double
 };
 
-/// Scene space <-> unit space: unit = (scene - center) / diagonal.
+/// Converts between scene space and unit space: unit = (scene - center) / diagonal.
 struct Frame {
     Vec3d center{0.0};
     double diagonal = 1.0;
@@ -55,22 +55,22 @@ struct Frame {
 /// diagonal of the box is infinite or subnormal.
 Frame frame_of(const Box& box);
 
-/// A point of the surface and its unit normal, or a zero normal if it has none.
+/// A point on the surface and its unit normal; the normal is zero if the point has none.
 struct Surfel {
     Vec3 position;
     Vec3 normal;
-    /// The sum of the unit normals of the other faces that the surfel touches. Each normal points to the side of its
-    /// face on which the surfel's own faces lie.
+    /// The sum of the unit normals of the other faces that the surfel touches. Each of these normals points to the side
+    /// of its face on which the surfel's own faces lie.
     Vec3 away{0.0f};
-    bool covered = false; ///< other faces cover the surfel's own faces: nothing is visible
-    /// The maximum height at which rays on triangles start. Finite where other faces are near, and the own faces so
-    /// small that rays could start beyond the others.
+    bool covered = false; ///< other faces lie on the surfel's own faces: nothing is visible
+    /// The maximum height at which rays against triangles start. Finite where other faces are near and the surfel's own
+    /// faces are so small that rays could otherwise start beyond the other faces.
     float highest = std::numeric_limits<float>::infinity();
 
     bool has_normal() const { return normal != Vec3(0.0f); }
     /// Where rays start: `height` above the surfel's own faces, and equally far from other faces that it touches.
     Vec3 origin(float height) const { return position + height * (normal + away); }
-    /// The same, at no more than the maximum height.
+    /// Like origin(), but at no more than the maximum height.
     Vec3 ray_origin(float height) const { return origin(height < highest ? height : highest); }
 };
 
@@ -106,7 +106,7 @@ struct Length {
 
     Length() = default;
     Length(double v, Unit u = Unit::scene) : value(v), unit(u) {}
-    /// \throw InputError "takes a positive length, not ..." if the text is not one.
+    /// \throw InputError "takes a positive length, not ..." if the text is anything else.
     Length(const std::string& text);
     Length(const char* text) : Length(std::string(text)) {}
 
@@ -115,10 +115,10 @@ struct Length {
     float to_unit(double diagonal, float voxel = 0.0f) const;
 };
 
-// The exceptions thrown at the boundaries of the library. Each message is one line that names the file, the location in
-// it and the fix.
+// The exceptions thrown at the boundaries of the library. Each message is one line that says how to fix the problem
+// and, if it lies in a file, names the file and the location in it.
 
-/// The input is invalid: a file that cannot be read or is damaged, a mesh without faces, a grid of another type.
+/// The input is invalid: a file that cannot be read or is damaged, a mesh without faces, a grid of an unsupported type.
 struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -138,7 +138,7 @@ struct MemoryError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The request is valid but too large: it exceeds the limits of memory and reading, or the index range.
+/// The request is valid but too large: it exceeds the limit on memory or on reading, or the range of the indices.
 struct LimitError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

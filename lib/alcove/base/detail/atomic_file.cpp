@@ -21,7 +21,7 @@
 namespace alcove {
 namespace {
 
-/// A path in static memory, which a signal handler can read.
+/// A path in static memory, where a signal handler can read it.
 struct Unfinished {
     std::atomic<int> state{0}; // 0 free, 1 being written, 2 a path
     std::array<char, PATH_MAX> path{};
@@ -42,7 +42,7 @@ int remember(const std::string& path) {
     return -1;
 }
 
-constexpr std::size_t block_size = std::size_t{1} << 20; // of output
+constexpr std::size_t block_size = std::size_t{1} << 20; // bytes
 
 void forget(int slot) {
     if (slot >= 0)
@@ -73,7 +73,7 @@ bool check_target(const std::filesystem::path& target, struct stat& old) {
     return exists;
 }
 
-/// Waits until the file or folder is on the disk, if the file system supports that. \return false if this fails.
+/// Waits until the file or folder is on the disk, if the file system supports that. \return false on failure.
 bool sync(int descriptor) {
     return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
@@ -83,7 +83,7 @@ bool sync_folder_of(const std::filesystem::path& file) {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0)
-        return true; // a folder that may be written but not read
+        return true; // the folder can be written to, but not opened
     const bool synced = sync(descriptor);
     const int reason = errno;
     ::close(descriptor);
@@ -96,7 +96,7 @@ bool sync_folder_of(const std::filesystem::path& file) {
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
     struct stat old {};
     const bool exists = check_target(target, old);
-    // Keep a link: replace the file that it points to.
+    // If the target is a link, keep it and replace the file that it points to.
     std::error_code unresolved;
     if (std::filesystem::is_symlink(target, unresolved))
         target_ = std::filesystem::canonical(target);
@@ -107,7 +107,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target) {
         temporary_ += std::to_string(random());
         temporary_ += ".part";
         forget(slot_);
-        slot_ = remember(temporary_.string()); // before the file exists, so that a signal cannot leave it behind
+        slot_ = remember(temporary_.string()); // before the file exists, so that no signal can leave it behind
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     if (descriptor_ < 0) {
@@ -149,7 +149,7 @@ void AtomicFile::copy(const InputFile& from, std::size_t offset, std::size_t cou
         const std::size_t block = std::min(count, block_size);
         std::size_t copied = from.copy_to(descriptor_, offset, block);
         count_written(copied);
-        if (copied == 0) { // the file systems cannot, or one of them fails: reading and writing tells which
+        if (copied == 0) { // the file systems cannot copy, or one failed: reading and writing show which
             buffer.resize(block);
             from.read_at(offset, buffer.data(), block);
             write(buffer);
@@ -161,7 +161,7 @@ void AtomicFile::copy(const InputFile& from, std::size_t offset, std::size_t cou
     from.check_unchanged();
 }
 
-/// Lets the disk begin with each block, so that commit() need not wait for all of them.
+/// Starts the transfer of each block to the disk early, so that commit() need not wait for all of them.
 void AtomicFile::count_written(std::size_t count) {
     written_ += count;
 #ifdef __linux__

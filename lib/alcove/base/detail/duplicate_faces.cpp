@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// A hash of a position that treats -0 as 0.
+/// A hash of a position. Treats -0 as 0.
 template <class Position>
 std::uint64_t hashed(const Position& p) {
     std::uint64_t hash = 0;
@@ -22,7 +22,7 @@ std::uint64_t hashed(const Position& p) {
     return hash ^ (hash >> 29);
 }
 
-/// A hash that is the same for triangles with the same corners.
+/// A hash that is the same for triangles with the same corners in any order.
 template <class Position>
 std::uint64_t hashed(std::span<const Position> positions, const Triangle& t) {
     return hashed(positions[t[0]]) + hashed(positions[t[1]]) + hashed(positions[t[2]]);
@@ -37,7 +37,7 @@ bool less(const Position& a, const Position& b) {
 template <class Position>
 struct Form {
     std::array<Position, 3> corners; // sorted
-    bool turned;                     // the orientation; false if `duplicates` ignores it
+    bool turned;                     // the orientation; false if `duplicates` ignores orientation
     std::uint32_t triangle;
 
     Form(std::span<const Position> positions, const Triangle& t, Duplicates duplicates, std::uint32_t index)
@@ -73,7 +73,7 @@ std::vector<Triangle> without_duplicate_faces(std::span<const Position> position
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         while (end < order.size() && order[end].key == order[begin].key)
             ++end;
-        // Usually, few triangles share a key, but in a crafted file many could.
+        // Usually few triangles share a key, but in a crafted file many could, so sort them.
         std::vector<Form<Position>> group;
         for (std::size_t i = begin; i < end && end - begin > 1; ++i)
             group.emplace_back(positions, triangles[order[i].value], duplicates, order[i].value);
@@ -95,7 +95,7 @@ bool has_duplicates_in_sample(std::span<const Vec3> positions, std::span<const T
     constexpr std::size_t most = 1 << 14;
     const std::size_t count = std::min(triangles.size(), most);
     std::vector<std::uint64_t> keys(count);
-    std::minstd_rand random(1); // files may list faces in a regular pattern
+    std::minstd_rand random(1); // not at regular steps, because files may list faces in a regular pattern
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t begin = i * triangles.size() / count, end = (i + 1) * triangles.size() / count;
         keys[i] = hashed(positions, triangles[begin + random() % (end - begin)]);

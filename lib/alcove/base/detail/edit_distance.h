@@ -1,4 +1,4 @@
-/// Similar words.
+/// Finds similar words, to suggest corrections of typing errors.
 #pragma once
 
 #include <cstddef>

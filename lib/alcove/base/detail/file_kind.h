@@ -1,4 +1,4 @@
-/// Kinds of files.
+/// Kinds and extensions of files.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace alcove {
 /// "a folder", "a pipe", "a socket" or "a device"; null for a regular file.
 const char* special_kind(const struct stat& status);
 
-/// The extension of a name in lower case: ".ply".
+/// The extension of a file name, in lower case: ".ply".
 std::string lower_extension(const std::filesystem::path& file);
 
 }

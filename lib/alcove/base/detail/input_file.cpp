@@ -118,7 +118,7 @@ void check_input_file(const std::filesystem::path& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0)
         fail_to_open(file);
-    if (const char* kind = special_kind(status)) // before opening it, which would wait for the writer of a pipe
+    if (const char* kind = special_kind(status)) // checked first, because opening a pipe would wait for its writer
         refuse_kind(file, kind);
     char first = 0;
     InputFile(file).read(&first, 1);

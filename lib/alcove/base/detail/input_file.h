@@ -1,4 +1,4 @@
-/// A file or pipe that is open for reading, at most read_limit() bytes of it.
+/// A file or pipe that is open for reading. At most read_limit() bytes of it can be read.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,22 @@ namespace alcove {
 
 class InputFile {
   public:
-    /// Opens a regular file, or a pipe after waiting for its writer. \throw InputError for anything else, LimitError
-    /// for a file that is too large.
+    /// Opens a regular file, or a pipe once it has a writer. \throw InputError for anything else, LimitError for a file
+    /// that is too large.
     explicit InputFile(const std::filesystem::path& file);
 
-    /// The size that the system reports: 0 for a pipe, and files may grow.
+    /// The size that the system reported when the file was opened; 0 for a pipe. The file may have grown since.
     std::size_t size() const { return size_; }
-    /// Reads up to `count` bytes, > 0, after those of the last call. \return how many; 0 at the end. \throw InputError
-    /// if the system cannot read the file, LimitError beyond the limit.
+    /// Reads the next bytes, at most `count` (> 0). \return how many were read; 0 at the end. \throw InputError if the
+    /// system cannot read the file, LimitError if the bytes read so far exceed the limit.
     std::size_t read(char* to, std::size_t count);
 
-    // Of a regular file, at any place and on any thread. \throw InputError as well if the file has changed since it was
-    // opened: bytes of two versions do not fit each other. A file that was replaced by another one has not changed.
+    // The next functions need a regular file. They work at any offset and on any thread. read_at() and
+    // check_unchanged() also \throw InputError if the contents of the file have changed since it was opened, because
+    // bytes of two versions do not fit together. Replacing the file by another one does not change its contents.
     void read_at(std::size_t offset, char* to, std::size_t count) const;
-    /// Lets the system copy up to `count` bytes to the end of an output, if it can. \return how many.
+    /// Lets the system copy up to `count` bytes to the file position of the descriptor `output`. \return how many were
+    /// copied; 0 if the system cannot.
     std::size_t copy_to(int output, std::size_t offset, std::size_t count) const;
     void check_unchanged() const;
 
@@ -39,11 +41,11 @@ class InputFile {
     Descriptor descriptor_;
     std::size_t size_ = 0;
     std::timespec modified_{};
-    std::size_t done_ = 0; ///< bytes read
+    std::size_t done_ = 0; ///< bytes that read() has returned
 };
 
-/// For libraries that open the file themselves and seek in it. \throw InputError unless it is a regular file that is
-/// empty or whose first byte can be read; LimitError if it is too large.
+/// Checks a file for libraries that open it themselves and seek in it. \throw InputError if the file is not a regular
+/// one or its first byte cannot be read (an empty file is accepted), LimitError if it is too large.
 void check_input_file(const std::filesystem::path& file);
 
 }

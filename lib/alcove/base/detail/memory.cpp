@@ -25,7 +25,7 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
-    ::mallopt(M_MMAP_MAX, 0); // large arrays would get mappings of their own, which free() returns to the system
+    ::mallopt(M_MMAP_MAX, 0); // else large arrays get their own mappings, which free() returns to the system
     ::mallopt(M_TRIM_THRESHOLD, -1);
 #endif
 }
@@ -42,7 +42,7 @@ std::size_t peak_resident_bytes() {
 }
 
 void forget_peak_resident_bytes() {
-    std::ofstream("/proc/self/clear_refs") << 5; // resets the peak: proc(5)
+    std::ofstream("/proc/self/clear_refs") << 5; // 5 resets the peak, see proc(5)
 }
 
 double system_memory() {
@@ -79,7 +79,7 @@ double control_group_memory(const std::filesystem::path& membership, const std::
         std::filesystem::path group = line.substr(version_2.size());
         for (bool outermost = false; !outermost; group = group.parent_path()) {
             outermost = group.empty();
-            if (double bytes = 0.0; std::ifstream(groups / group / "memory.max") >> bytes) // or "max"
+            if (double bytes = 0.0; std::ifstream(groups / group / "memory.max") >> bytes) // fails for "max": no limit
                 least = std::min(least, bytes);
         }
     }

@@ -1,5 +1,6 @@
-/// Large arrays on pages of 2 MB, and the memory of the process and of the machine. Allocating a page takes longer than
-/// filling it, and a mesh of a million triangles occupies tens of thousands of small pages.
+/// Allocates large arrays on pages of 2 MB, and measures the memory of the process and of the machine. Large pages save
+/// time: the system takes longer to allocate a page than a program to fill it, and a mesh of a million triangles
+/// occupies tens of thousands of small pages.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +12,13 @@
 
 namespace alcove {
 
-/// Requests huge pages where they fit into [begin, begin + bytes). A hint, without effect on systems without them.
+/// Requests huge pages where they fit into [begin, begin + bytes). This is a hint; it has no effect on systems without
+/// huge pages.
 void prefer_huge_pages(void* begin, std::size_t bytes);
 
 /// Keeps freed memory in the process from now on. Otherwise the system clears each page again before a later array gets
-/// it, which takes a tenth of the time of a bake. For programs, not for libraries. No effect without glibc.
+/// it, which takes a tenth of the time of a bake. Only programs should call this, not libraries. Has no effect without
+/// glibc.
 void keep_freed_memory();
 
 /// Reserves room for `count` values, on huge pages.
@@ -47,7 +50,7 @@ struct HugeAllocator : std::allocator<T> {
     }
 };
 
-/// For arrays whose values are all written, either as the array grows or after resize().
+/// For arrays in which every value is written before it is read, either as the array grows or after resize().
 template <class T>
 using HugeVector = std::vector<T, HugeAllocator<T>>;
 
@@ -64,14 +67,14 @@ std::vector<T> huge_vector(std::size_t count, const T& value = {}) {
 /// report it. Unlike the peak from getrusage(), it excludes the parent process.
 std::size_t peak_resident_bytes();
 
-/// Resets the peak.
+/// Resets peak_resident_bytes().
 void forget_peak_resident_bytes();
 
-/// Bytes of memory of the machine, or of the control group (cgroup v2) if that has less; infinite if the system reports
-/// neither.
+/// The memory of the machine in bytes, or the limit of the process's control group (cgroup v2) if that is less;
+/// infinite if the system reports neither.
 double system_memory();
 
-/// The smallest `memory.max` of a control group and of the groups that contain it; infinite if there is none.
+/// The smallest `memory.max` of a control group and the groups that contain it; infinite if none has a limit.
 /// `membership` is a file such as /proc/self/cgroup, `groups` a folder such as /sys/fs/cgroup.
 double control_group_memory(const std::filesystem::path& membership, const std::filesystem::path& groups);
 

@@ -9,14 +9,14 @@
 namespace alcove {
 namespace {
 
-/// Byte-order marks, zero-width spaces, line separators and marks of the writing direction.
+/// Whether the character is a byte-order mark, a zero-width space, a line separator or a mark of the writing direction.
 bool is_invisible(unsigned code) {
     return code == 0xfeff || (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
            (code >= 0x2060 && code <= 0x2069);
 }
 
-/// The number of bytes of the character at the start of `text`, in UTF-8; 0 if it is a control character,
-/// invisible or invalid.
+/// The length in bytes of the UTF-8 character at the start of `text`; 0 if it is a control character, invisible or
+/// invalid.
 std::size_t printable_length(std::string_view text) {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
     if (byte(0) < 0x80)

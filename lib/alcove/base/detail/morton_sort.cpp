@@ -9,7 +9,7 @@ namespace alcove {
 
 template <class Key>
 void radix_sort(HugeVector<Keyed<Key>>& items, int low, int high) {
-    constexpr int max_digit_bits = 11; // a histogram fits in the L1 cache
+    constexpr int max_digit_bits = 11; // so that a histogram fits in the L1 cache
     constexpr std::size_t min_block = 1 << 14, max_blocks = 16;
     using Histogram = std::array<std::uint32_t, 1 << max_digit_bits>;
     const int bits = high - low, passes = (bits + max_digit_bits - 1) / max_digit_bits;

@@ -1,4 +1,4 @@
-/// Spatial sorting: Morton codes, which keep neighbouring cells close, and a radix sort by them.
+/// Spatial sorting: Morton codes, which order cells so that neighbours stay close, and a radix sort by such codes.
 #pragma once
 
 #include "alcove/base/detail/memory.h"
@@ -9,10 +9,10 @@
 
 namespace alcove {
 
-/// Bits per coordinate; a code has three times as many.
+/// Bits per coordinate; a code has three times as many bits.
 inline constexpr int morton_bits = 21;
 
-/// The Morton code of a cell: the interleaved bits of its coordinates, x first (Morton 1966).
+/// The Morton code of a cell: the interleaved bits of its coordinates, with x in the higher bits (Morton 1966).
 /// \pre coordinates in [0, 2^21)
 inline std::uint64_t morton_code(const Vec3d& cell) {
     const auto spread = [](double coordinate) { // inserts two zero bits before each bit
@@ -26,7 +26,7 @@ inline std::uint64_t morton_code(const Vec3d& cell) {
     return spread(cell.x) << 2 | spread(cell.y) << 1 | spread(cell.z);
 }
 
-/// The cell of a code, as z, y and x.
+/// The coordinates z, y and x of the cell that has this code.
 /// \pre at most ten bits per coordinate
 inline std::array<std::uint16_t, 3> morton_cell(std::uint32_t code) {
     const auto gathered = [](std::uint32_t x) { // inverse of spread()

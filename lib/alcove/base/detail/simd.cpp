@@ -6,7 +6,7 @@ namespace alcove {
 
 std::string simd_target() {
     const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
-    return hwy::TargetName(supported & -supported); // better targets have lower bits
+    return hwy::TargetName(supported & -supported); // Highway gives better targets lower bits
 }
 
 }

@@ -5,8 +5,8 @@
 
 namespace alcove {
 
-/// The name of the instruction set, such as "AVX2". At run time, the best set is chosen that the processor supports and
-/// for which the code was compiled.
+/// The name of the instruction set, such as "AVX2". At run time, SIMD code uses the best instruction set for which it
+/// was compiled and which the processor supports.
 std::string simd_target();
 
 }

@@ -1,4 +1,4 @@
-/// Wall-clock time of stages.
+/// Measures the wall-clock time of stages.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@ namespace alcove {
 
 class Stopwatch {
   public:
-    /// Seconds since construction or the last call.
+    /// Seconds since the last call, or since construction in the first call.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();
