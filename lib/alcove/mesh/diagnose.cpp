@@ -34,12 +34,12 @@ std::size_t forward_uses(std::span<const EdgeUse> uses) {
     return count;
 }
 
-/// The sum of the signed volumes of cones from the centre of the mesh over its faces, in units of the diagonal
-/// cubed. A face is spanned by its edges and the mean of its corners, so that the result does not depend on the
-/// first corner.
+/// The sum of the signed volumes between the centre of the mesh and each face, in units of the diagonal cubed. A face
+/// consists of triangles between its edges and the mean of its corners, so that the result does not depend on which
+/// corner is the first.
 struct Volume {
     double sum = 0.0;
-    double bound = 0.0; // the sum without cancellation
+    double bound = 0.0; // upper bound of the absolute sum
 
     void add(const Mesh& mesh, const Frame& frame, std::span<const std::uint32_t> face) {
         const double scale = 1.0 / frame.diagonal;
@@ -91,7 +91,7 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
     std::vector<Component> parts;
     std::vector<std::uint32_t> part_of = huge_vector<std::uint32_t>(faces.count());
     for (std::uint32_t f = 0; f < faces.count(); ++f) {
-        const std::uint32_t first = components.find(f); // the smallest of its set, so already numbered
+        const std::uint32_t first = components.find(f); // the smallest of its set, so the set has a number
         if (first == f) {
             part_of[f] = static_cast<std::uint32_t>(parts.size());
             parts.emplace_back();
@@ -144,7 +144,7 @@ void examine_fans(const Mesh& mesh, const Surface& surface, Diagnosis& result) {
         if (fans.find(corner) == corner)
             result.non_manifold_vertices += ++fans_of[faces.corners[corner]] == 2;
 
-    // Open edges that meet in a fan are consecutive around a hole.
+    // Open edges that meet in a fan are neighbours in a boundary loop.
     for (const std::uint32_t corner : open_corners)
         fans.join(corner, faces.next(corner));
     std::vector<std::uint32_t> loops;
@@ -181,7 +181,8 @@ std::size_t count_duplicates(const SoundFaces& faces) {
         std::sort(sorted.begin(), sorted.end());
         return sorted;
     };
-    // A sum of hashes is independent of the order of the vertices; faces with equal sums are compared.
+    // The sum of the hashes of a face does not depend on the order of its vertices. Only faces with equal sums are
+    // compared.
     struct Entry {
         std::uint64_t sum;
         std::uint32_t face;

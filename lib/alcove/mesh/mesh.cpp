@@ -23,7 +23,7 @@ Box Mesh::box() const {
     Box box;
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const Vec3d& p = positions[v];
-        if (used[v] && p.x - p.x + (p.y - p.y) + (p.z - p.z) == 0.0) // is finite, with a single branch
+        if (used[v] && p.x - p.x + (p.y - p.y) + (p.z - p.z) == 0.0) // whether p is finite, with one branch
             box.add(p);
     }
     return box;

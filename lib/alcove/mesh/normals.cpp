@@ -81,14 +81,14 @@ std::vector<Vec3> weighted_normals(const Mesh& mesh, std::span<const Triangle> t
 
 Vec3 unit_or_zero(const Vec3d& n) {
     // A float vector whose length is 1 up to rounding stays as it is, so that normalizing twice changes nothing. Most
-    // normals in files are such vectors.
+    // normals in files are of this kind.
     constexpr double rounding = 2.5e-7;
     if (Vec3d(Vec3(n)) == n && std::fabs(glm::dot(n, n) - 1.0) <= rounding)
         return Vec3(n);
     const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
     if (!is_finite(n) || largest == 0.0)
         return Vec3(0.0f);
-    // Scale first, as squares of very small and very large numbers are out of range.
+    // Scale first, because the squares of very small and very large numbers are out of range.
     const Vec3d scaled = power_towards_one(largest) * n;
     return Vec3(scaled / glm::length(scaled));
 }

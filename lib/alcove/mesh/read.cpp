@@ -58,7 +58,7 @@ std::string points_without_faces(std::size_t count) {
 
 /// Whether all coordinates are finite and far from the largest double.
 bool are_moderate(const std::vector<Vec3d>& positions) {
-    std::size_t others = 0; // in a loop without exits, which is fast
+    std::size_t others = 0; // counted, because a loop without an early exit is fast
     for (const Vec3d& p : positions)
         others += !(std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z) < 1e300);
     return others == 0;
@@ -106,7 +106,8 @@ Mesh read_bytes(const FileBytes& file) {
     if (mesh.face_count() == 0 && mesh.format != ply.name)
         file.fail(mesh.format == stl.name ? "contains no facets; export it again"
                                           : points_without_faces(mesh.vertex_count()));
-    // Most meshes pass a quick test: their box, which takes longer, is neither too large nor too small.
+    // For most meshes, a quick test shows that the bounding box is neither too large nor too small. Computing the box
+    // takes longer.
     const bool moderate = are_moderate(mesh.positions);
     if (!moderate || !has_first_edge(mesh))
         check_extent(file, mesh);

@@ -20,8 +20,8 @@ Vec3d normal_of(std::span<const Vec3d> polygon) {
     return normal;
 }
 
-/// Whether the triangles around the first corner all face along `normal` and together span less than 180° there. A quad
-/// does not need the second condition: its two angles are always less than 360° together.
+/// Whether the triangles around the first corner all face along `normal` and together span at most 180° there. A quad
+/// does not need the second condition: its two angles there are always less than 360° together.
 bool is_fan(std::span<const Vec3d> polygon, const Vec3d& normal) {
     const Vec3d first = polygon[1] - polygon[0];
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -34,7 +34,7 @@ bool is_fan(std::span<const Vec3d> polygon, const Vec3d& normal) {
     return true;
 }
 
-/// Triangulates polygons; reuses its buffers.
+/// Triangulates one polygon after another and reuses its buffers.
 class PolygonCutter {
   public:
     explicit PolygonCutter(const Mesh& mesh) : mesh_(mesh) {}
@@ -62,7 +62,7 @@ class PolygonCutter {
         const Vec3d origin = 0.25 * mesh_.positions[face_[0]];
         double extent = 0.0;
         for (const std::uint32_t v : face_) {
-            // The factor keeps differences of the largest doubles finite.
+            // The factor 0.25 keeps differences of the largest doubles finite.
             const Vec3d p = 0.25 * mesh_.positions[v] - origin;
             extent = std::max({extent, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
             local_.push_back(p);
@@ -102,7 +102,7 @@ class PolygonCutter {
     EarClipper clipper_;
 };
 
-/// Triangulates the faces [begin, end). `faces`, if set, gets the face of each triangle.
+/// Triangulates the faces [begin, end). `faces`, if set, gets the index of the face of each triangle.
 Triangulation triangulate_range(const Mesh& mesh, bool all_finite, std::size_t begin, std::size_t end,
                                 std::vector<std::uint32_t>* faces = nullptr) {
     Triangulation result;
@@ -164,7 +164,7 @@ Triangulation triangulate(const Mesh& mesh) {
     // In a mesh of triangles, distributing the work and joining the results would take longer than the work itself.
     if (mesh.corners.size() <= 3 * mesh.face_count())
         return triangulate_range(mesh, all_finite, 0, mesh.face_count());
-    // Blocks with about equal numbers of corners, so that a few huge polygons are shared too.
+    // Blocks of about 32,768 corners on average, so that threads also share the work if polygons are huge.
     const std::size_t grain = 1 + (mesh.face_count() << 15) / (mesh.corners.size() + 1);
     std::vector<Triangulation> parts((mesh.face_count() + grain - 1) / grain);
     parallel_for(mesh.face_count(), grain, [&](std::size_t begin, std::size_t end) {

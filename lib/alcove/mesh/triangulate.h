@@ -1,8 +1,8 @@
 /// Triangulates the faces of a mesh.
 ///
-/// A triangle is kept. A polygon is cut in the plane of its Newell normal (Newell et al. 1972; Tampieri 1992): as a fan
-/// around its first corner if that covers it without overlap, as in every convex polygon, otherwise by ear clipping
-/// (Meisters 1975). Triangles keep the orientation of their face. No vertex is added or moved.
+/// A triangle is kept. A polygon is cut in the plane of its Newell normal (Newell et al. 1972; Tampieri 1992): into a
+/// fan around its first corner if the fan covers the polygon without overlap, as in every convex polygon, otherwise by
+/// ear clipping (Meisters 1975). Triangles keep the orientation of their face. No vertex is added or moved.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -21,7 +21,7 @@ struct Triangulation {
 /// 15 ns per triangle, 50 ns per quad, and n log n for n corners of a polygon.
 Triangulation triangulate(const Mesh& mesh);
 
-/// The face of each triangle of triangulate(mesh). Cost: that of triangulate() on one thread.
+/// For each triangle of triangulate(mesh), the index of its face. Cost: that of triangulate() on one thread.
 std::vector<std::uint32_t> faces_of_triangles(const Mesh& mesh);
 
 /// For each triangle of triangulate(mesh), the indices into Mesh::corners of its corners. Cost: that of triangulate()

@@ -11,14 +11,14 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t batch_size = std::size_t(1) << 18; // points; limits memory
+constexpr std::size_t batch_size = std::size_t(1) << 18; // points; limits the memory
 constexpr int max_intervals = 64;
 
 struct Edge {
     std::uint32_t a = 0, b = 0;
     std::uint32_t middle = 0; ///< number of the tested point at its midpoint, if there is one
-    std::uint32_t pieces = 0; ///< number of pieces at the edge, if marked
-    Vec3d normal{0.0};        ///< area-weighted sum over its pieces
+    std::uint32_t pieces = 0; ///< number of pieces that use the edge, if it is marked
+    Vec3d normal{0.0};        ///< area-weighted sum of the normals of its pieces
     bool tested = false;
     bool marked = false; ///< to be cut in this round
 };
@@ -44,7 +44,8 @@ class AdaptiveCuts {
     }
 
   private:
-    /// Tests the pieces that the last cut created and their new sides. All pieces at a new side are new as well.
+    /// Tests the pieces that the last cut created and the new sides of these pieces. All pieces at a new side are new
+    /// as well.
     void test_new_pieces() {
         for (const Piece& piece : bisection_.pieces())
             for (std::size_t i = 0; i < 3 && piece.is_new; ++i) {
@@ -86,7 +87,7 @@ class AdaptiveCuts {
 
     void add_points(const Piece& piece, std::size_t side, Edge& edge) {
         const double length = std::sqrt(bisection_.squared_length(edge.a, edge.b));
-        // A power of two, so that the midpoint is tested: it may become a vertex.
+        // A power of two, so that the midpoint, which may become a vertex, is among the points.
         int intervals = 2;
         while (spacing_ > 0.0 && length > spacing_ * intervals && intervals < max_intervals)
             intervals *= 2;
@@ -98,12 +99,12 @@ class AdaptiveCuts {
         }
     }
 
-    /// How many intervals of the spacing cover a length.
+    /// The number of intervals, at most as long as the spacing, that cover a length; limited to `max_intervals`.
     int intervals_of(double length) const {
         return length > 0.0 ? static_cast<int>(std::min(std::ceil(length / spacing_), double(max_intervals))) : 0;
     }
 
-    /// Adds rows of points parallel to the longest side, or only the centre if the triangle's height is below the
+    /// Adds rows of points parallel to the longest side, or only the centre if the height of the triangle is below the
     /// spacing.
     void add_points_inside(const Piece& piece, std::size_t longest) {
         Edge& edge = edges_[key(piece, longest)];
@@ -123,8 +124,8 @@ class AdaptiveCuts {
         }
     }
 
-    /// Adds a point with weights for the ends of a side and the opposite corner. `edge` is cut if the predicate returns
-    /// true for the point.
+    /// Adds the point that has `weights` for the two ends of a side and for the opposite corner. `edge` is cut if the
+    /// predicate returns true for the point.
     void add_point(const Piece& piece, std::size_t side, const Vec3d& weights, const Vec3d& area, Edge& edge) {
         const std::array<std::size_t, 3> corners{side, (side + 1) % 3, weights[2] == 0.0 ? side : (side + 2) % 3};
         PointBetween point{Vec3d(0.0), Vec3(0.0f), piece.face, {}, weights};
@@ -172,7 +173,7 @@ class AdaptiveCuts {
     }
 
     const Edge* marked_edge(const Piece& piece, std::size_t side) const {
-        // Checked first, as most sides are not marked and the lookup is slow.
+        // Check the ends first, because most sides are not marked and the lookup is slow.
         const std::uint32_t u = piece.vertices[side], v = piece.vertices[(side + 1) % 3];
         if (std::max(u, v) >= at_marked_.size() || !at_marked_[u] || !at_marked_[v])
             return nullptr;
@@ -222,8 +223,8 @@ class AdaptiveCuts {
 
     /// Unmarks the shortest edges if cutting all marked ones would exceed the limit. \return whether all stay marked.
     bool keep_within_limit() {
-        // Cutting an edge adds one face for each piece that uses it; the first cut of a polygon also adds its
-        // triangulation.
+        // Cutting an edge adds one face for each piece that uses it; the first cut in a polygon also replaces the
+        // polygon by its triangles.
         std::size_t count = bisection_.face_count(), cuts = 0;
         const std::vector<Piece>& pieces = bisection_.pieces();
         for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {

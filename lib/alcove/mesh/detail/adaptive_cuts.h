@@ -1,4 +1,4 @@
-/// Refines a Bisection where a predicate returns true. Implements tessellate() with a predicate.
+/// Refines a Bisection where a predicate returns true, for tessellate() with a predicate.
 #pragma once
 
 #include "alcove/mesh/detail/bisection.h"

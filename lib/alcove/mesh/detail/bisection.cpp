@@ -13,7 +13,7 @@ double squared(const Vec3d& v) {
     return glm::dot(v, v);
 }
 
-/// Halves before adding, as the sum of two large coordinates may overflow.
+/// Halves the coordinates before adding, because the sum of two large ones may overflow.
 Vec3d middle_between(const Vec3d& a, const Vec3d& b) {
     return 0.5 * a + 0.5 * b;
 }
@@ -58,7 +58,7 @@ std::array<T, 3> from_side(const std::array<T, 3>& values, std::size_t side) {
     return {values[side], values[(side + 1) % 3], values[(side + 2) % 3]};
 }
 
-/// The number of triangles that a triangle is cut into. Stops counting above `most`.
+/// The number of pieces that a triangle is cut into. Stops counting above `most`.
 std::size_t count_pieces(const std::array<Vec3d, 3>& corners, double scale, double length, std::size_t most) {
     std::vector<std::array<Vec3d, 3>> todo{corners};
     std::size_t count = 0;
@@ -88,7 +88,7 @@ Bisection::Bisection(const Mesh& mesh, double length)
     add_pieces(larger);
 }
 
-/// Triangulates a copy of the faces that has one vertex per corner, because pieces must refer to corners.
+/// Triangulates a copy of the faces in which each corner is a separate vertex, because pieces must refer to corners.
 void Bisection::add_pieces(const std::vector<std::uint32_t>& faces) {
     Mesh apart;
     std::vector<std::uint32_t> corner_of, face_of;

@@ -1,9 +1,9 @@
 /// Bisects the triangles of a mesh at the midpoints of their sides.
 ///
 /// OpenMesh's LongestEdgeT produces the same triangles but is not used: OpenMesh cannot represent non-manifold edges,
-/// and LongestEdgeT has no limit on the number of faces and does not interpolate corner values. Here each triangle is
-/// split independently. Adjacent faces still match, because the decision to split a side depends only on its two ends
-/// and these identify the new vertex.
+/// and LongestEdgeT neither limits the number of faces nor interpolates corner values. Here each triangle is split
+/// independently. Adjacent faces still match, because whether a side is split depends only on its two ends, and these
+/// identify the new vertex.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -21,12 +21,12 @@ struct AddedVertex {
     Vec3d weights;    ///< of `between`; sum to 1
 };
 
-/// A triangle of a triangulated face, or a part of one.
+/// A triangle of a triangulated face, or a part of such a triangle.
 struct Piece {
     Triangle vertices;
-    Triangle corners;             ///< corners of the whole triangle: indices into Mesh::corners
+    Triangle corners;             ///< indices into Mesh::corners of the corners of the whole triangle
     std::array<Vec3d, 3> weights; ///< barycentric coordinates of each vertex in the whole triangle
-    std::uint32_t face;           ///< index in the mesh
+    std::uint32_t face;           ///< index of its face in the mesh
     bool is_new = true;           ///< created by the last cut()
 };
 
@@ -43,7 +43,7 @@ auto blended(const Vec3d& weights, ValueAt&& value_at) {
 class Bisection {
   public:
     /// Triangulates the faces that have a side longer than `length`, or a corner farther than 2 × `length` from the
-    /// first.
+    /// first one.
     /// \throw InputError if the mesh has infinite extent.
     Bisection(const Mesh& mesh, double length);
 
@@ -56,15 +56,16 @@ class Bisection {
     std::size_t count_faces(double longest, std::size_t most) const;
     std::size_t face_count() const; ///< the number of faces so far
     double longest_side() const;
-    double scale() const { return scale_; } ///< prevents overflow and underflow of squared lengths
+    double scale() const { return scale_; } ///< factor that prevents overflow and underflow of squared lengths
 
-    /// Whether a side is longer than `length` and its midpoint, after rounding, differs from its ends.
+    /// Whether the side between two vertices is longer than `length`, and its rounded midpoint differs from both of
+    /// them.
     bool can_cut(std::uint32_t a, std::uint32_t b, double length) const;
     double squared_length(std::uint32_t a, std::uint32_t b) const; ///< in the scaled mesh
     void cut_longer_than(double length);
 
-    /// Bisects each piece at the side that `choose(piece)` returns, then the halves in the same way, until it returns
-    /// none. Side i is between the vertices i and (i + 1) % 3.
+    /// Bisects each piece at the side that `choose(piece)` returns, then the halves in the same way, until `choose`
+    /// returns none. Side i is between the vertices i and (i + 1) % 3.
     template <class Choose>
     void cut(Choose&& choose) {
         std::vector<Piece> done, todo;

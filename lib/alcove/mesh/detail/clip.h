@@ -5,9 +5,9 @@
 
 namespace alcove {
 
-/// The parts of the triangles within the box, by polygon clipping (Sutherland and Hodgman 1974).
-/// Neighbours cut a common edge at the same point, so they remain neighbours. The result has only positions and
-/// faces, and is open where it was cut. Cost: linear.
+/// The parts of the triangles that lie within the box, by polygon clipping (Sutherland and Hodgman 1974). Two triangles
+/// are cut at the same point of their common edge, so the parts still meet, but a cut triangle shares no vertices with
+/// others. The result has only positions and faces, and is open where the box cut it. Cost: linear.
 Mesh clip(const Mesh& mesh, std::span<const Triangle> triangles, const Box& box);
 
 }

@@ -7,7 +7,7 @@
 namespace alcove {
 
 std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<const Triangle> triangles) {
-    // Face normals whose length is twice the face's area, scaled so that no product over- or underflows.
+    // Face normals, each as long as twice the area of its face, scaled so that no product over- or underflows.
     const double scale = exact_scale(mesh);
     std::vector<Vec3d> faces;
     std::vector<std::uint32_t> begin(mesh.positions.size() + 1, 0);
@@ -42,7 +42,7 @@ std::vector<std::array<Vec3, 3>> corner_normals(const Mesh& mesh, std::span<cons
             }
             Vec3d sum(0.0);
             constexpr double min_cosine = 0.766;     // cos 40°
-            constexpr std::uint32_t max_faces = 256; // the work is quadratic in the faces of a vertex
+            constexpr std::uint32_t max_faces = 256; // because the work is quadratic in the faces of a vertex
             const bool many = begin[vertex + 1] - begin[vertex] > max_faces;
             if (many)
                 sum = faces[f];

@@ -32,7 +32,8 @@ void CornerTree::build(std::span<const glm::dvec2> outline, const std::vector<ch
         bounds_[node] = bounds_of_children(node);
 }
 
-/// Aligns the boxes with the longest edge, as the long and thin triangles beside it would overlap many oblique boxes.
+/// Aligns the boxes with the longest edge, because the long and thin triangles beside it would overlap many oblique
+/// boxes.
 void CornerTree::align(std::span<const glm::dvec2> outline) {
     glm::dvec2 longest(0.0);
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -99,12 +100,12 @@ CornerTree::Bounds CornerTree::bounds_of_children(std::size_t node) const {
 }
 
 bool CornerTree::overlaps(const Bounds& bounds, const std::array<glm::dvec2, 3>& triangle) {
-    constexpr double rounding = 1e-14; // of aligned coordinates
+    constexpr double rounding = 1e-14; // errors of aligned coordinates
     const auto& [a, b, c] = triangle;
     const glm::dvec2 low = glm::min(glm::min(a, b), c) - rounding, high = glm::max(glm::max(a, b), c) + rounding;
     if (low.x > bounds.max.x || low.y > bounds.max.y || high.x < bounds.min.x || high.y < bounds.min.y)
         return false;
-    // The corner of the box that is farthest to the left of a side.
+    // Whether the box reaches the left of a side: the corner of the box that is farthest to the left decides.
     const auto reaches = [&bounds](const glm::dvec2& from, const glm::dvec2& to) {
         const glm::dvec2 corner{to.y >= from.y ? bounds.min.x : bounds.max.x,
                                 to.x >= from.x ? bounds.max.y : bounds.min.y};

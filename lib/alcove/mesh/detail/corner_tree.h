@@ -13,12 +13,12 @@
 
 namespace alcove {
 
-/// Twice the area of the triangle a, b, c; positive if the path turns left.
+/// Twice the area of the triangle a, b, c; positive if the path a, b, c turns left.
 inline double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
 
-/// Whether the path a, b, c turns left by more than rounding errors of coordinates of about 1.
+/// Whether the path a, b, c turns left by more than the rounding errors of coordinates of about 1.
 inline bool turns_left(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     constexpr double rounding = 1e-14;
     const double lengths = std::abs(b.x - a.x) + std::abs(b.y - a.y) + std::abs(c.x - b.x) + std::abs(c.y - b.y);
@@ -28,12 +28,12 @@ inline bool turns_left(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec
 /// A tree of the corners of an outline. Reuses its buffers.
 class CornerTree {
   public:
-    /// Builds the tree of those corners whose `is_member` is true.
+    /// Builds the tree of the corners for which `is_member` is true.
     void build(std::span<const glm::dvec2> outline, const std::vector<char>& is_member);
     void remove(std::size_t corner);
     bool has(std::size_t corner) const { return slots_[corner] != none; }
 
-    /// Whether `counts` is true for the number of any corner in or on a triangle, which must turn left.
+    /// Whether `counts` returns true for the index of any corner in or on the triangle, which must be counterclockwise.
     template <class Predicate>
     bool any_in(const std::array<glm::dvec2, 3>& triangle, Predicate&& counts) const;
 
@@ -46,7 +46,7 @@ class CornerTree {
         glm::dvec2 point;
         std::uint32_t corner; ///< `none` once it is removed
     };
-    /// A box in aligned coordinates; empty where no member is left.
+    /// A box in aligned coordinates; empty if no member is left in it.
     struct Bounds {
         glm::dvec2 min{infinity}, max{-infinity};
         bool operator==(const Bounds&) const = default;
@@ -70,7 +70,7 @@ template <class Predicate>
 bool CornerTree::any_in(const std::array<glm::dvec2, 3>& triangle, Predicate&& counts) const {
     const auto& [a, b, c] = triangle;
     const std::array<glm::dvec2, 3> seen{aligned(a), aligned(b), aligned(c)};
-    std::array<std::size_t, 64> nodes; // left to visit: at most one per level, plus one
+    std::array<std::size_t, 64> nodes; // still to visit: at most one per level, plus one
     std::size_t count = 0;
     nodes[count++] = 1;
     while (count > 0) {

@@ -8,7 +8,7 @@ namespace {
 
 using Vec2d = glm::dvec2;
 
-/// If there is no ear, the sharpest of this many corners is clipped.
+/// If there is no ear, this many corners are compared, and the one with the largest left turn is clipped.
 constexpr std::size_t most_compared = 2048;
 
 bool is_inside(const Vec2d& p, const std::array<Vec2d, 3>& triangle) {
@@ -42,7 +42,7 @@ std::span<const std::array<std::uint32_t, 3>> EarClipper::clip(std::span<const V
                 break;
         }
         const std::size_t tip = ears_.empty() ? sharpest_from(at) : ears_.next_or_first(at);
-        // Skip the next corner, so that the cuts are spread rather than fanned around one vertex.
+        // Skip the next corner, so that the cuts do not all meet at one vertex.
         at = next_[next_[tip]];
         clip_ear(tip);
     }
@@ -94,8 +94,8 @@ void EarClipper::clip_ear(std::size_t i) {
     ears_.remove(i);
     if (reflex_.has(i))
         reflex_.remove(i);
-    // Clipping only makes corners sharper. It does not affect the other ears of a simple polygon, unless a corner
-    // touches the side of an ear.
+    // Clipping an ear only makes the corners beside it sharper. It does not affect the other ears of a simple polygon,
+    // unless a corner touches the side of an ear.
     for (const std::uint32_t neighbour : {before, after})
         if (reflex_.has(neighbour) && is_convex(neighbour))
             reflex_.remove(neighbour);

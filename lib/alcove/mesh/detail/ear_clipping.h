@@ -11,7 +11,7 @@
 
 namespace alcove {
 
-/// Reuses its buffers. Cost: about n log n.
+/// Clips one polygon after another and reuses its buffers. Cost: about n log n for n corners.
 class EarClipper {
   public:
     /// Triangulates a counterclockwise outline with an extent of about 1. Returns triangles of corner indices, two
@@ -34,7 +34,7 @@ class EarClipper {
     std::vector<char> is_reflex_;
     CornerTree reflex_; ///< corners that are not convex: only these can be inside an ear
     NumberSet ears_;
-    bool may_touch_ = false; ///< corners may touch the sides of an ear; needed where the outline touches itself
+    bool may_touch_ = false; ///< whether corners may lie on the sides of an ear, for outlines that touch themselves
     std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 

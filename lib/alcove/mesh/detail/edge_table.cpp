@@ -48,7 +48,8 @@ EdgeTable::EdgeTable(const SoundFaces& faces, std::size_t vertex_count)
         }
     };
     for_each_side([&](std::uint32_t, std::uint32_t a, std::uint32_t b) { ++begin_[std::min(a, b)]; });
-    // Each offset first points to the end of the sides of a vertex. Filling backwards moves it to their start.
+    // Each offset first points to the end of the sides of its vertex. Filling backwards moves the offset to their
+    // start.
     std::inclusive_scan(begin_.begin(), begin_.end(), begin_.begin());
     for_each_side([&](std::uint32_t corner, std::uint32_t a, std::uint32_t b) {
         uses_[--begin_[std::min(a, b)]] = {std::max(a, b), corner & (UINT32_MAX >> 1), a < b};

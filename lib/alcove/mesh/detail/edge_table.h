@@ -16,7 +16,7 @@ struct SoundFaces {
     std::vector<std::uint32_t> corners;  ///< no corner equals the next one, cyclically
     std::vector<std::uint32_t> face_of;  ///< one per corner
     std::vector<std::uint32_t> source;   ///< one per face: its index in the mesh
-    std::size_t collapsed = 0;           ///< faces left out because fewer than three corners remain, all of them finite
+    std::size_t collapsed = 0;           ///< finite faces left out because fewer than three corners remain
 
     std::size_t count() const { return begin.size() - 1; }
     std::span<const std::uint32_t> face(std::size_t f) const {
@@ -55,7 +55,7 @@ class EdgeTable {
     }
 
   private:
-    std::vector<std::uint32_t> begin_; // by the smaller vertex
+    std::vector<std::uint32_t> begin_; // offsets into uses_, by the smaller vertex
     std::vector<EdgeUse> uses_;
 };
 
@@ -69,7 +69,7 @@ class DisjointSets {
             i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    /// A fast test: true only if both are in one set, but it may be false even then.
+    /// A fast test: if true, both numbers are in one set; if false, they may be in one set or not.
     bool surely_joined(std::uint32_t a, std::uint32_t b) const { return parent_[a] == parent_[b]; }
     void join(std::uint32_t a, std::uint32_t b) {
         a = find(a);

@@ -15,16 +15,15 @@ namespace alcove {
 namespace {
 
 /// The vertices on open edges, and the sides of triangles between these vertices. An edge counts as open if only one
-/// triangle uses the indices of its ends.
+/// triangle uses its two vertex indices.
 struct Rim {
-    std::vector<std::uint32_t> vertices; ///< in order
+    std::vector<std::uint32_t> vertices; ///< in ascending order
     std::vector<Vec3d> positions;
     std::vector<std::array<std::uint32_t, 2>> sides; ///< indices of `vertices`
 };
 
 /// One sum per vertex, which is not 0 for a vertex on an open edge. At a vertex inside the surface, the sides that
-/// leave the vertex end at the same vertices at which the sides that enter it start, so the sums of their hashes
-/// cancel.
+/// leave the vertex end where the sides that enter it start, so the hashes of those vertices cancel.
 std::vector<std::uint64_t> unbalanced_sums(std::size_t vertices, std::span<const Triangle> triangles) {
     const auto hash = [](std::uint64_t v) { // finalizer of MurmurHash3 (Appleby 2011)
         v = (v + 1) * 0x9e3779b97f4a7c15ULL;
@@ -60,7 +59,8 @@ Rim rim_of(const Mesh& mesh, std::span<const Triangle> triangles) {
     return rim;
 }
 
-/// Counts, after vertices are joined, the edges that only one triangle uses and the sides whose two ends were joined.
+/// The number of edges that only one triangle uses after vertices are joined, plus the number of sides whose two ends
+/// are joined.
 std::size_t open_edges(const Rim& rim, std::span<const std::uint32_t> joined) {
     const std::uint64_t count = rim.vertices.size();
     HugeVector<Keyed<std::uint64_t>> edges;
@@ -90,9 +90,9 @@ double largest_distance(const Mesh& mesh, const Rim& rim) {
     return std::min(1e-4 * frame_of(mesh.box()).diagonal, 0.1 * *middle);
 }
 
-/// Rounds up to one digit, so that the length is easy to read and type.
+/// Rounds up to one significant digit, so that the length is easy to read and type.
 double rounded_up(double length) {
-    constexpr double rounding = 1.001; // of the typed length
+    constexpr double rounding = 1.001; // margin for the rounding of the typed length
     const double unit = std::pow(10.0, std::floor(std::log10(length)));
     return std::ceil(rounding * length / unit) * unit;
 }

@@ -1,4 +1,4 @@
-/// Finds where faces touch without sharing vertices, because a file repeats them or rounds them differently.
+/// Finds where faces touch without sharing vertices, because a file repeats vertices or rounds them differently.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -8,9 +8,11 @@
 namespace alcove {
 
 struct Gaps {
-    /// Pairs of vertices of open edges at exactly the same position: each repeated vertex, and the first vertex there.
+    /// Pairs of vertices of open edges at exactly the same position: each repeated vertex, and the first one at its
+    /// position.
     std::vector<std::array<std::uint32_t, 2>> repeated;
-    /// Edges that stay open when coincident vertices are joined, but close when vertices within `distance` are joined.
+    /// The number of edges that stay open if coincident vertices are joined, but close if vertices within `distance`
+    /// are joined.
     std::size_t closable = 0;
     double distance = 0.0; ///< scene units
 
@@ -18,8 +20,8 @@ struct Gaps {
     std::string advice() const;
 };
 
-/// Looks for distances of at most 1e-4 of the diagonal, and at most a tenth of the median length of open edges.
-/// `triangles` are the triangles of the mesh. Cost: about 10 ns per triangle, and 1 µs per vertex of an open edge.
+/// Considers gaps of at most 1e-4 of the diagonal and at most a tenth of the median length of open edges. `triangles`
+/// are the triangles of the mesh. Cost: about 10 ns per triangle, and 1 µs per vertex of an open edge.
 Gaps find_gaps(const Mesh& mesh, std::span<const Triangle> triangles);
 
 }

@@ -17,7 +17,7 @@ void append(Bytes& to, T value) {
 
 template <class T>
 void append_rounded(Bytes& to, double value) {
-    // Clamped because of rounding errors of the weighted sum.
+    // Clamped, because rounding errors may take the weighted sum out of range.
     constexpr double low = std::numeric_limits<T>::lowest(), high = std::numeric_limits<T>::max();
     append(to, static_cast<T>(std::clamp(std::round(value), low, high)));
 }
@@ -43,7 +43,7 @@ void append(Bytes& to, double value, PlyType type) {
     }
 }
 
-/// The offsets of the rows of an element.
+/// Finds the rows of an element.
 class Rows {
   public:
     explicit Rows(const PlyElement& element) : first_(element.rows.data()), stride_(element.smallest_row()) {
@@ -67,7 +67,8 @@ class Rows {
     std::vector<std::size_t> begin_; ///< empty if all rows have the same size
 };
 
-/// The index of a property among three whose names are consecutive from `first`: "x", "y" and "z".
+/// The index of a property among the three whose names start at `first` and differ in the last letter: "x", "y" and
+/// "z".
 std::optional<int> component(const PlyProperty& property, std::string_view first) {
     std::string name(first);
     for (int c = 0; c < 3; ++c, ++name.back())
@@ -175,7 +176,7 @@ class FaceElement {
                                                                    type == PlyType::int32));
     }
 
-    /// Whether the property is the list of indices, chosen as in read_ply().
+    /// Whether the property is the list of vertex indices that read_ply() uses.
     bool is_corners(const PlyProperty& property) const {
         const std::string_view name = old_.find("vertex_indices") ? "vertex_indices" : "vertex_index";
         return property.name == name && property.count_type;

@@ -9,7 +9,7 @@
 namespace alcove {
 namespace {
 
-/// The values of the vertices that are the first at their position.
+/// The values of the vertices that represent themselves.
 template <class T>
 std::vector<T> first_ones(const std::vector<T>& values, std::span<const std::uint32_t> first) {
     std::vector<T> kept;

@@ -1,4 +1,4 @@
-/// Joins vertices that an exporter's rounding has moved apart.
+/// Joins vertices that rounding in an exporter has moved apart.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -10,11 +10,11 @@ struct JoinedMesh {
     std::vector<std::uint32_t> vertex_of; ///< for each vertex of the original, its vertex in `mesh`
 };
 
-/// Joins vertices that are within a length of each other; the length must be finite and not in voxels. Each vertex
-/// moves to the position of its representative, see weld(). In a mesh without normals, joined vertices become one
-/// vertex, and representatives keep their order. In a mesh with normals, they stay separate vertices at that position,
-/// as their normals may differ. Warns of faces that lose corners. \throw InputError for a length that makes no sense
-/// with the mesh, or that joins the corners of every face.
+/// Joins vertices whose distance is at most `within`, which must be finite and not in voxels. Each vertex moves to the
+/// position of its representative; see weld(). In a mesh without normals, joined vertices become one vertex, and
+/// representatives keep their order. In a mesh with normals, joined vertices stay separate at the same position,
+/// because their normals may differ. Warns of faces that lose corners. \throw InputError if the length is out of range
+/// for the mesh, or joins the corners of every face.
 JoinedMesh join_vertices(const Mesh& mesh, const Length& within);
 
 }

@@ -9,7 +9,7 @@ namespace alcove {
 
 class NumberSet {
   public:
-    /// Empties the set.
+    /// Empties the set and changes its limit.
     void reset(std::size_t limit);
     void insert(std::size_t number);
     void remove(std::size_t number);
@@ -21,7 +21,8 @@ class NumberSet {
   private:
     static constexpr std::size_t bits = 64;
 
-    /// A bit of a level is set if the word of that number in the level below is not zero. The last level has one word.
+    /// Level 0 has one bit per number. In the next levels, bit i is set if word i of the level before is not zero. The
+    /// last level has one word.
     std::vector<std::vector<std::uint64_t>> levels_{{0}};
 };
 

@@ -21,7 +21,7 @@ Box box_of(const Mesh& mesh, std::size_t face) {
     return box;
 }
 
-/// The bounding box without the `few` faces that reach furthest to each of its six sides.
+/// The bounding box without the `few` faces that reach farthest towards each of its six sides.
 Box trimmed(const std::vector<Box>& boxes, std::size_t few) {
     Box result;
     std::vector<double> ends(boxes.size());
@@ -43,7 +43,7 @@ std::size_t few_of(std::size_t faces) {
     return std::max(min_few, faces / one_in);
 }
 
-/// Whether a sample of the faces spreads over more than the small share of the bounding box.
+/// Whether a sample of the faces, without the outermost ones, spreads over at least `small_share` of the diagonal.
 bool spreads(const Mesh& mesh) {
     constexpr std::size_t most = 4096;
     std::vector<Box> sample;

@@ -18,7 +18,7 @@ std::vector<std::vector<std::uint32_t>> components_of(const Mesh& mesh, const So
     std::vector<std::vector<std::uint32_t>> components;
     std::vector<std::uint32_t> number(faces.count());
     for (std::uint32_t f = 0; f < faces.count(); ++f) {
-        const std::uint32_t first = sets.find(f); // the smallest of its set, so already numbered
+        const std::uint32_t first = sets.find(f); // the smallest of its set, so the set has a number
         if (first == f) {
             number[f] = static_cast<std::uint32_t>(components.size());
             components.emplace_back();

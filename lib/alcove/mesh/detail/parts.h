@@ -13,10 +13,10 @@ struct MeshPart {
 
 /// The components in the order of their first faces; vertices and faces keep the order of the whole mesh.
 ///
-/// Faces are connected across edges, with vertices at exactly the same position joined, as in diagnose(): parts
-/// that touch only at a point are separate, and a vertex of several parts is in each of them. Invalid faces (fewer
-/// than three distinct corners, or one that is not finite) and vertices without another face are in no part. Cost:
-/// linear, about 0.2 µs per triangle.
+/// As in diagnose(), vertices at exactly the same position are joined, and faces are connected across edges. So parts
+/// that touch only at a point are separate, and a vertex of several parts is in each of them. Invalid faces (with fewer
+/// than three distinct corners, or with one that is not finite) and vertices that no valid face uses are in no part.
+/// Cost: linear, about 0.2 µs per triangle.
 std::vector<MeshPart> split_parts(const Mesh& mesh);
 
 }

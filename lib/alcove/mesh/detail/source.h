@@ -15,7 +15,7 @@ namespace alcove {
 class SourceDocument {
   public:
     virtual ~SourceDocument() = default;
-    /// Whether each vertex has a value of that name ("quality", "red", ...) that is written back.
+    /// Whether the vertices have values of that name ("quality", "red", ...) that are written back.
     virtual bool has_vertex_property(std::string_view) const { return false; }
     /// The first comment of the file that begins with that text; empty if there is none.
     virtual std::string_view comment(std::string_view) const { return {}; }

@@ -16,7 +16,7 @@ inline double decode_srgb(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// A linear colour as sRGB bytes. Components outside of [0, 1] are clamped; NaN becomes 0.
+/// Encodes a linear colour as sRGB bytes. Components outside [0, 1] are clamped; NaN becomes 0.
 inline Color srgb_color(const Vec3& linear, float alpha = 1.0f) {
     const auto byte = [](double value) {
         return static_cast<std::uint8_t>(std::lround(255.0 * (value > 0.0 ? std::min(value, 1.0) : 0.0)));

@@ -32,7 +32,7 @@ std::size_t face_limit(const Mesh& mesh, std::size_t most_faces) {
 }
 
 /// The smallest length, to within 1 %, for which cutting all longer edges gives at most `most_faces` faces. If there is
-/// none, a length that causes no cuts.
+/// no such length, one that causes no cuts.
 double length_that_fits(const Bisection& bisection, double wanted, std::size_t most_faces) {
     const double longest = bisection.longest_side();
     if (longest <= wanted || bisection.count_faces(wanted, most_faces) <= most_faces)
@@ -89,7 +89,7 @@ void add_vertices(Mesh& mesh, const Bisection& bisection) {
     mesh.positions = bisection.positions();
 }
 
-/// Replaces each face that was cut by its pieces.
+/// Replaces each cut face with its pieces.
 void replace_faces(Mesh& mesh, const Mesh& old, const Bisection& bisection) {
     mesh.corners.clear();
     mesh.face_begin.assign(1, 0);

@@ -21,7 +21,7 @@ std::uint64_t hash(const Vec3d& p) {
     return mix(bits(p.x) + mix(bits(p.y) + mix(bits(p.z) + 1)));
 }
 
-/// Stores half of the hash to avoid most comparisons of positions.
+/// Stores half of the hash of the position, which saves most comparisons of positions.
 struct Slot {
     std::uint32_t hash = 0;
     std::uint32_t vertex = UINT32_MAX;
@@ -64,13 +64,13 @@ std::vector<std::uint32_t> weld(std::span<const Vec3d> positions, double distanc
             box.add(p);
     constexpr std::uint32_t none = UINT32_MAX;
     const std::size_t mask = std::bit_ceil(positions.size() + 1) - 1;
-    std::vector<std::uint32_t> newest(mask + 1, none), older(positions.size(), none); // per hash, the list of vertices
+    std::vector<std::uint32_t> newest(mask + 1, none), older(positions.size(), none); // linked lists, one per hash
     std::vector<std::uint32_t> first(positions.size());
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
         first[v] = v;
         if (!is_finite(positions[v]))
             continue;
-        // The ball around a vertex meets at most 2 × 2 × 2 cells whose edge is twice its radius.
+        // If the edge of a cell is twice the radius of a ball, the ball meets at most 2 × 2 × 2 cells.
         const Vec3d place = (positions[v] - box.min) / (2.0 * distance), low = glm::floor(place - 0.5);
         double nearest = distance;
         for (int corner = 0; corner < 8; ++corner)

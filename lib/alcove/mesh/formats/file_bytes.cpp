@@ -14,7 +14,7 @@
 namespace alcove {
 namespace {
 
-constexpr std::size_t smallest_capacity = std::size_t{1} << 16; // of the buffer for a pipe
+constexpr std::size_t smallest_capacity = std::size_t{1} << 16; // least capacity of the buffer for a pipe
 constexpr std::size_t large_file = std::size_t{1} << 20;
 
 struct Free {
@@ -22,7 +22,7 @@ struct Free {
 };
 using Buffer = std::unique_ptr<char, Free>;
 
-/// Moves the pages of a large buffer instead of copying its bytes.
+/// For a large buffer, realloc() moves pages instead of copying bytes.
 Buffer grown(Buffer bytes, std::size_t capacity) {
     auto* larger = static_cast<char*>(std::realloc(bytes.get(), capacity));
     if (larger == nullptr)
@@ -59,7 +59,7 @@ FileBytes::FileBytes(const std::filesystem::path& file, Head head) : path_(file)
 }
 
 void FileBytes::read_all(InputFile& input) {
-    // A read into the spare byte finds the end of the file, or that the file is longer than its size says.
+    // With a spare byte, the last read finds either the end of the file, or that the file is longer than its size says.
     std::size_t capacity = input.size() + 1;
     Buffer bytes = grown({}, capacity);
     while (const std::size_t got = input.read(bytes.get() + size_, capacity - size_)) {

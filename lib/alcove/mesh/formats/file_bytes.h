@@ -15,8 +15,9 @@ class FileBytes {
   public:
     /// Reads a whole regular file or pipe. \throw like InputFile; InputError if it is empty.
     explicit FileBytes(const std::filesystem::path& file);
-    /// Reads the beginning of a large regular file and leaves the rest on the disk. `head` is given the first bytes and
-    /// says how many must be in memory; all, if that exceeds the size. \throw like FileBytes(file)
+    /// Reads the beginning of a large regular file and leaves the rest on the disk. `head` gets the first bytes and
+    /// returns how many bytes must be in memory; if this number exceeds the size, the whole file is read. \throw like
+    /// FileBytes(file)
     using Head = std::size_t (*)(std::string_view first_bytes);
     FileBytes(const std::filesystem::path& file, Head head);
     /// Uses `bytes` as if they had been read from `file`.
@@ -24,10 +25,10 @@ class FileBytes {
 
     const std::filesystem::path& path() const { return path_; }
     const char* begin() const { return bytes_.get(); }
-    const char* end() const { return bytes_.get() + size_; } ///< a readable zero byte follows the last one
-    std::size_t size() const { return size_; }               ///< in memory
+    const char* end() const { return bytes_.get() + size_; } ///< a readable zero byte follows the last byte
+    std::size_t size() const { return size_; }               ///< number of bytes in memory
     std::size_t size_of_file() const { return on_disk_ ? on_disk_->size() : size_; }
-    /// Bytes of the file, wherever they are.
+    /// Bytes of the file, in memory or on the disk.
     FilePart part(std::size_t begin, std::size_t size) const;
     std::string_view view() const { return {begin(), size_}; }
     /// A pointer that keeps the bytes alive.
@@ -40,7 +41,7 @@ class FileBytes {
     [[noreturn]] void fail(std::string_view message) const;
     /// \throw InputError "file: line N: message".
     [[noreturn]] void fail_at_line(const char* place, std::string_view message) const;
-    /// \throw InputError "file: byte N: message", counted from 0.
+    /// \throw InputError "file: byte N: message", where N counts from 0.
     [[noreturn]] void fail_at_byte(const char* place, std::string_view message) const;
     [[noreturn]] void fail_at_byte(std::size_t place, std::string_view message) const;
 

@@ -10,7 +10,7 @@
 
 namespace alcove {
 
-/// Refers to bytes, or to a file, that must live longer.
+/// Refers to bytes in memory or to a file, which must outlive this object.
 class FilePart {
   public:
     FilePart() = default;
@@ -20,10 +20,10 @@ class FilePart {
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     FilePart part(std::size_t begin, std::size_t size) const;
-    /// All bytes, in `buffer` if they are on the disk. \throw like InputFile::read_at()
+    /// All bytes of the part. If they are on the disk, reads them into `buffer`. \throw like InputFile::read_at()
     std::string_view read(std::string& buffer) const;
     std::string read() const;
-    void read_to(char* to) const; ///< `to`: room for all of them
+    void read_to(char* to) const; ///< `to` must have room for all bytes
     /// \throw like AtomicFile::copy()
     void write_to(AtomicFile& output) const;
 

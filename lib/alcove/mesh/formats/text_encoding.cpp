@@ -12,8 +12,8 @@ bool is_control(char c) {
     return c >= '\0' && c < ' ' && c != '\t' && c != '\r' && c != '\n';
 }
 
-/// Whether the text has 16 bits per character, with the high byte first or last: the high byte of each plain character
-/// is zero.
+/// Whether the text has 16 bits per character, with the high byte first or last. This shows in the high bytes of plain
+/// characters, which are zero.
 bool is_wide(std::string_view text, bool high_first) {
     std::size_t plain = 0;
     for (std::size_t at = 0; at + 1 < text.size(); at += 2) {

@@ -13,7 +13,7 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// The text without the NUL and Ctrl-Z bytes that block devices and DOS programs append.
 std::string_view without_padding(std::string_view text);
 
-/// \throw InputError if the file is text in UTF-16 or UTF-32: no supported format uses them.
+/// \throw InputError if the file is text in UTF-16 or UTF-32, which no supported format uses.
 void refuse_wide_text(const FileBytes& file);
 
 }

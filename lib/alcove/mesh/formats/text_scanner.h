@@ -1,4 +1,4 @@
-/// Scans numbers and words from a text in memory. Fast and strict; errors contain the line.
+/// Scans numbers and words from a text in memory. Fast and strict; errors name the line.
 #pragma once
 
 #include "alcove/base/detail/messages.h"
@@ -16,10 +16,10 @@
 namespace alcove {
 
 struct TextSyntax {
-    char comment = '\0';       ///< where a token may start, begins a comment up to the end of the line
+    char comment = '\0';       ///< begins a comment, to the end of the line, wherever a token may start
     bool continuation = false; ///< a backslash at the end of a line joins the next one to it
-    /// A comment also begins after the last digit of a number, as some programs write it, but not after a point:
-    /// "1.#IND".
+    /// Whether a comment may also begin directly after the last digit of a number, as some programs write it. It cannot
+    /// begin after a point: "1.#IND".
     bool comment_after_digit = false;
 };
 inline constexpr TextSyntax off_syntax{'#', false, true};
@@ -41,10 +41,10 @@ class TextScanner {
     void move_to(const char* place) { at_ = place; }
     bool at_token_end() const { return is_token_end(at_); }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
-    /// The NUL and Ctrl-Z bytes after the text, and blanks between them.
+    /// The number of NUL and Ctrl-Z bytes after the text, including blanks between them.
     std::size_t padding() const { return static_cast<std::size_t>(file_.end() - end_); }
 
-    /// Skips blanks; true at a line end, a comment or the end of the file.
+    /// Skips blanks. \return whether a line end, a comment or the end of the file follows.
     bool at_line_end() {
         while (at_ < end_ && (is_blank(*at_) || is_continuation(at_)))
             at_ += is_blank(*at_) ? 1 : continuation_length(at_);
@@ -68,7 +68,7 @@ class TextScanner {
         if (carriage_return && at_ < end_ && *at_ == '\n')
             ++at_;
     }
-    /// Skips blanks, line ends and comments; true at the end of the file.
+    /// Skips blanks, line ends and comments. \return whether the end of the file follows.
     bool at_end() {
         while (at_line_end()) {
             if (at_ == end_)
@@ -103,7 +103,7 @@ class TextScanner {
         at_ += token.size();
         return token;
     }
-    /// The next token as a number, which need not be finite. \throw InputError if it is not one.
+    /// The next token as a number, which need not be finite. \throw InputError if it is not a number.
     template <class Real = double>
     Real number(const char* expected) {
         if (at_end())
@@ -115,14 +115,14 @@ class TextScanner {
         at_ = last;
         return value;
     }
-    /// The next token of this line as a number; not finite if it is not a number. \pre the line has another token
+    /// The next token of this line as a number; NaN if it is not a number. \pre the line has another token
     double number_or_nan() {
         double value = 0.0;
         const char* const last = end_of_number(value);
         at_ = last != nullptr ? last : at_ + peek().size();
         return last != nullptr ? value : std::numeric_limits<double>::quiet_NaN();
     }
-    /// The next token as an integer. \throw InputError if it is not one or has more than 18 digits.
+    /// The next token as an integer. \throw InputError if it is not an integer or has more than 18 digits.
     std::int64_t integer(const char* expected) {
         if (at_end())
             fail_early(expected);
@@ -164,7 +164,7 @@ class TextScanner {
     bool is_comment_after_digit(const char* at) const {
         return syntax_.comment_after_digit && at < end_ && is_comment(*at) && at[-1] >= '0' && at[-1] <= '9';
     }
-    /// Stores the value of the token at this position and returns its end; null if it is not a number.
+    /// Stores the value of the token at this position and returns the end of the token; null if it is not a number.
     template <class Real>
     const char* end_of_number(Real& value) {
         const char* const first = at_ + (*at_ == '+' && at_ + 1 < end_ && at_[1] != '-' ? 1 : 0);

@@ -88,7 +88,7 @@ void copy_elements(std::size_t type, const char* from, std::size_t stride, std::
     }
 }
 
-/// Whether a type of components is that of T.
+/// Whether `type` is the component type that stores a T.
 template <class T>
 bool is_same(std::size_t type) {
     return type == (std::is_same_v<T, float> ? float32 : uint32);
@@ -181,7 +181,7 @@ GltfArray<std::uint32_t> GltfAccessor::indices() const {
 
 std::size_t count_of_accessor(const GltfValue& accessor) {
     const std::size_t count = accessor["count"].count();
-    constexpr std::size_t most = std::size_t{1} << 32; // a mesh has no more vertices or corners
+    constexpr std::size_t most = std::size_t{1} << 32; // a mesh cannot have more vertices or corners
     if (count > most)
         accessor["count"].fail("exceeds 2^32; export the file again");
     return count;

@@ -1,4 +1,4 @@
-/// The values of glTF accessors: of any component type, interleaved, normalized and sparse.
+/// Reads the values of glTF accessors of any component type, including interleaved, normalized and sparse ones.
 #pragma once
 
 #include "alcove/mesh/formats/gltf/gltf_array.h"
@@ -21,7 +21,8 @@ class GltfAccessor {
 
     std::size_t count() const { return count_; }
     int components() const { return components_; }
-    /// All components as floats; normalized integers as numbers in [0, 1] or [-1, 1]. The file must outlive the result.
+    /// All components as floats; normalized integers become numbers in [0, 1] or [-1, 1]. The file must outlive the
+    /// result.
     GltfArray<float> floats() const;
     /// The values of an accessor with one component. \throw InputError if they are not unsigned integers.
     GltfArray<std::uint32_t> indices() const;
@@ -44,13 +45,13 @@ class GltfAccessor {
     int components_ = 1;
     std::size_t component_type_, element_size_;
     bool normalized_ = false;
-    std::optional<Elements> dense_; ///< empty: zeros
+    std::optional<Elements> dense_; ///< empty: all values are zero
     std::vector<std::uint32_t> sparse_at_;
     Elements sparse_;
-    std::string buffer_; ///< of encoded elements
+    std::string buffer_; ///< for elements read from the disk
 };
 
-/// The count of an accessor. \throw InputError if it is not a whole number, or exceeds 2^32.
+/// The count of an accessor. \throw InputError if it is not a whole number or exceeds 2^32.
 std::size_t count_of_accessor(const GltfValue& accessor);
 
 }

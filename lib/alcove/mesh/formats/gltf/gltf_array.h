@@ -10,14 +10,16 @@
 
 namespace alcove {
 
-/// Values in memory, or decoded block by block when they are used: those of a large file need not be in memory beside
-/// the mesh that is made of them.
+/// Values in memory, or values that are decoded block by block when they are used. In the second case, the values of a
+/// large file need not be in memory at the same time as the mesh that is made from them.
 template <class T>
 class GltfArray {
   public:
-    /// Decodes the values from `first` on, from whole vectors to whole vectors.
+    /// Decodes as many values as `to` holds, from index `first` on. Both `first` and the size of `to` are multiples of
+    /// the components per vector.
     using Decode = std::function<void(std::size_t first, std::span<T> to)>;
-    /// Of whole vectors of two, three or four values, and of whole triangles. Input and output fit the cache.
+    /// In values. A multiple of 2, 3 and 4, so that a block has whole vectors or whole triangles. Small enough that
+    /// input and output fit in the cache.
     static constexpr std::size_t block_size = std::size_t{12} * 2048;
 
     GltfArray() = default;
@@ -50,9 +52,9 @@ class GltfArray {
         for_each_block([&](std::span<const T> block) { values.insert(values.end(), block.begin(), block.end()); });
         return values;
     }
-    /// Leaves out the values from `size` on.
+    /// Drops the values from index `size` on.
     void cut(std::size_t size) { size_ = size; }
-    /// Decodes all values for good, for repeated use.
+    /// Decodes all values now and keeps them, for repeated use.
     void keep() {
         if (decode_)
             *this = GltfArray(all());

@@ -11,7 +11,7 @@
 namespace alcove {
 namespace {
 
-/// \throw LimitError before `bytes` are allocated, if they exceed the limit.
+/// \throw LimitError if `bytes` exceed the memory limit. Called before they are allocated.
 void check_memory(const GltfValue& place, double bytes) {
     if (bytes > memory_limit())
         throw LimitError(fmt::format("{}: decompressed, it takes {}, more than the limit of {}: raise --max-memory",

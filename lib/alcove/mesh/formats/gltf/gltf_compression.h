@@ -13,10 +13,10 @@
 
 namespace alcove {
 
-/// The part of `bytes` that the byteOffset and byteLength of an object give.
+/// The part of `bytes` that the byteOffset and byteLength of an object describe.
 FilePart range_in(const FilePart& bytes, const GltfValue& object);
 
-/// The compression of an element of `bufferViews`, if it has one.
+/// The EXT_meshopt_compression object of an element of `bufferViews`, if it has one.
 std::optional<GltfValue> meshopt_of(const GltfValue& view);
 /// \throw InputError if the data is damaged, LimitError if it would exceed the memory limit.
 std::string decompress(GltfFile& file, const GltfValue& meshopt);

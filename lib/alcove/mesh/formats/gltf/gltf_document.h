@@ -1,4 +1,4 @@
-/// A glTF file that a mesh was read from, and where its vertices came from.
+/// The glTF file that a mesh was read from, and where in the file each vertex of the mesh comes from.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -12,10 +12,11 @@
 
 namespace alcove {
 
-/// The vertices of primitives that share their attributes, in one placement. They are consecutive in the mesh.
+/// The vertices of primitives that share their attributes, in one placement. These vertices are consecutive in the
+/// mesh.
 struct GltfVertices {
     std::size_t placement;
-    std::vector<std::size_t> primitives; ///< of the mesh of the placement
+    std::vector<std::size_t> primitives; ///< indices in the mesh of the placement
     std::size_t first, count;
 };
 
@@ -44,7 +45,7 @@ class GltfDocument : public SourceDocument {
     std::vector<std::string> content_counts; ///< the result of contents()
 };
 
-/// The texture coordinates of the vertices of a primitive, with v upwards; empty if it lacks the set.
+/// The texture coordinates of the vertices of a primitive, with v upwards; empty if the primitive lacks the set.
 std::vector<Vec2> uvs_of_primitive(GltfFile& file, const GltfValue& primitive, std::size_t set);
 
 }

@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is read without 
 
 constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk_type = 0x004e4942;
 constexpr std::size_t header_size = 12, chunk_header_size = 8;
-constexpr std::size_t max_depth = 200; // writing the JSON is recursive
+constexpr std::size_t max_depth = 200; // limited because writing the JSON is recursive
 
 }
 
@@ -45,7 +45,7 @@ GltfFile::GltfFile(const FileBytes& bytes) : bytes_(bytes) {
     }
 }
 
-/// An integer of 32 bits, little endian as all of glTF.
+/// A 32-bit integer, little endian like all numbers in glTF.
 std::uint32_t GltfFile::number_at(std::size_t place, const char* expected) const {
     std::uint32_t number = 0;
     const std::size_t size = bytes_.size_of_file();
@@ -92,7 +92,7 @@ void GltfFile::parse_chunks() {
 
 /// Before parsing, refuses JSON that would take much more memory or time than its size suggests.
 void GltfFile::check_json(std::string_view text) const {
-    constexpr std::size_t most_keys = 4096; // of an object, which are searched one by one
+    constexpr std::size_t most_keys = 4096; // of one object, as they are searched one by one
     constexpr double bytes_per_value = 64.0;
     std::vector<std::size_t> commas; // in each open object or array
     double values = 1.0;

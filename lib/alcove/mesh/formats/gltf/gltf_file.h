@@ -1,4 +1,4 @@
-/// A glTF file: its JSON, its buffers and the views of them.
+/// A glTF file: its JSON, its buffers and its buffer views.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
@@ -22,14 +22,14 @@ class GltfFile {
     GltfValue root() const { return {bytes_, json_, ""}; }
     const FileBytes& bytes() const { return bytes_; }
     bool is_binary() const { return is_binary_; }
-    /// The bytes of the binary chunk, without padding if buffers[0] says so; empty if there is no such chunk.
+    /// The bytes of the binary chunk, without padding if buffers[0] gives its length; empty if there is no such chunk.
     FilePart binary_chunk() const { return binary_chunk_; }
     bool has_binary_chunk() const { return has_binary_chunk_; }
     /// Chunks after the binary one, with their headers.
     FilePart other_chunks() const { return other_chunks_; }
     bool is_indented() const; ///< whether the JSON has line breaks
 
-    /// The bytes of an element of `buffers`, found at the first use. \throw InputError if they are missing, are too
+    /// The bytes of an element of `buffers`, loaded at the first use. \throw InputError if they are missing, are too
     /// few or lie outside the folder of the file.
     FilePart buffer(const GltfValue& buffer);
     /// The bytes of an element of `bufferViews`, decompressed at the first use.

@@ -1,4 +1,4 @@
-/// The images of a glTF file, not decoded.
+/// The images of a glTF file, before they are decoded.
 #pragma once
 
 #include "alcove/mesh/formats/gltf/gltf_file.h"
@@ -13,8 +13,8 @@ struct GltfImage {
     std::string bytes;
 };
 
-/// The set of UVs that a material uses for its metallic-roughness texture; empty if there is none, or if
-/// KHR_texture_transform moves it.
+/// The UV set that a material uses for its metallic-roughness texture; empty if it has no such texture, or if
+/// KHR_texture_transform moves the texture.
 std::optional<std::size_t> metallic_roughness_uv_set(const GltfFile& file, std::size_t material);
 
 /// The image of the metallic-roughness texture of a material. \throw InputError if the image is missing, or exists only

@@ -72,7 +72,7 @@ GltfOutput::GltfOutput(const fs::path& target, GltfFile& file)
     }
 }
 
-/// Chooses the buffer that new data is appended to.
+/// Chooses the buffer to which new data is appended, and loads its contents.
 void GltfOutput::choose_buffer(GltfFile& file) {
     const std::size_t buffers = json_.contains("buffers") ? json_["buffers"].size() : 0;
     const bool has_chunk = file.has_binary_chunk() && !(buffers > 0 && json_["buffers"][0].contains("uri"));
@@ -232,7 +232,7 @@ void GltfOutput::replace_png(std::size_t number, std::string_view bytes) {
 /// Removes the bytes of a view from the buffer, unless other data overlap them, and moves the bytes that follow.
 void GltfOutput::take_out(std::size_t number) {
     struct Range {
-        Json* place; // of the offset
+        Json* place; // the object that has the offset
         std::size_t begin, end;
     };
     std::vector<Range> ranges;
@@ -242,7 +242,7 @@ void GltfOutput::take_out(std::size_t number) {
         std::vector<Json*> places{&view};
         if (view.contains("extensions"))
             for (auto& [name, extension] : view["extensions"].items()) {
-                if (name != "EXT_meshopt_compression") // may have offsets, too
+                if (name != "EXT_meshopt_compression") // others may have offsets, too
                     return;
                 places.push_back(&extension);
             }
@@ -268,7 +268,7 @@ void GltfOutput::take_out(std::size_t number) {
     const std::size_t count = is_last ? next - begin : (next - begin) / 4 * 4, old_size = binary_.size();
     own_binary().erase(begin, count);
     binary_ = FilePart(rewritten_);
-    const std::size_t shift = is_last ? padded(old_size) - padded(begin) : count; // the bytes after it stay aligned
+    const std::size_t shift = is_last ? padded(old_size) - padded(begin) : count; // keeps later bytes aligned
     for (const Range& range : ranges)
         if (range.begin > begin)
             (*range.place)["byteOffset"] = range.begin - shift;

@@ -31,18 +31,19 @@ class GltfOutput {
     std::size_t add_positions(std::span<const float> values); ///< with their bounds
     std::size_t add_colors(std::span<const std::array<std::uint16_t, 4>> values);
     std::size_t add_indices(std::span<const std::uint32_t> values, std::size_t vertex_count);
-    /// Replaces the values of an accessor if they are in an embedded buffer and nothing else uses their bytes, so that
-    /// files do not grow with each bake. \return whether the values were replaced.
+    /// Replaces the values of an accessor in place, so that files do not grow with each bake. This needs values of the
+    /// same type and size in the buffer that new data is appended to, and a view that no other accessor uses. \return
+    /// whether the values were replaced.
     bool overwrite(std::size_t accessor, int component_type, std::string_view bytes);
     /// Appends a PNG with the other properties of `image`, and returns its index in `images`.
     std::size_t add_png(std::string_view bytes, Json image);
-    /// Replaces an image. Its bytes are removed if nothing else uses them.
+    /// Replaces an image. The bytes of the old image are removed if nothing else uses them.
     void replace_png(std::size_t image, std::string_view bytes);
 
     /// Writes a .glb, or a .gltf with its data embedded. \throw IoError, LimitError beyond 4 GB.
     void write();
 
-    /// The paths of images that were rewritten relative to the folder of the target, or not found.
+    /// Messages about image paths that were rewritten relative to the folder of the target, or that lead to no file.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
@@ -60,13 +61,13 @@ class GltfOutput {
     std::filesystem::path target_;
     bool is_binary_, is_indented_ = false;
     Json json_;
-    FilePart chunk_, other_chunks_; ///< of the file
-    std::size_t buffer_ = 0;        ///< index of the buffer that new data is appended to
+    FilePart chunk_, other_chunks_; ///< of the input file
+    std::size_t buffer_ = 0;        ///< index of the buffer to which new data is appended
     bool in_chunk_;                 ///< whether this buffer is the binary chunk
     FilePart binary_;               ///< the contents that the buffer already has
-    bool is_rewritten_ = false;     ///< whether binary_ is a copy
-    std::string rewritten_;         ///< the copy
-    std::string added_;             ///< after binary_, which is padded to a multiple of 4
+    bool is_rewritten_ = false;     ///< whether binary_ refers to the changed copy
+    std::string rewritten_;         ///< the changed copy
+    std::string added_;             ///< new data, after binary_ and padding to a multiple of 4
     std::vector<std::string> warnings_;
 };
 

@@ -26,7 +26,7 @@ std::size_t mode_of(const GltfValue& primitive) {
     return primitive.count_or("mode", triangles);
 }
 
-/// Takes an attribute out of a decoded primitive; empty if there is none.
+/// Moves an attribute out of a decoded primitive. Returns an empty array if the primitive does not have it.
 GltfArray<float> take_attribute(DracoMesh& mesh, const GltfValue& extension, const std::string& name, int least,
                                 int most) {
     const auto found = mesh.attributes.find(name);
@@ -41,7 +41,7 @@ std::size_t vertex_count_of(const GltfFile& file, const GltfValue& primitive) {
     return count_of_accessor(*accessor_of(file.root(), primitive, "POSITION"));
 }
 
-/// The values of an attribute that is not compressed with Draco; empty if there is none.
+/// The values of an attribute that is not compressed with Draco; empty if the primitive does not have it.
 GltfArray<float> floats_of(GltfFile& file, const GltfValue& primitive, const std::string& name, int least, int most,
                            int* components = nullptr) {
     const std::optional<GltfValue> value = accessor_of(file.root(), primitive, name.c_str());
@@ -68,7 +68,7 @@ GltfPrimitives decompressed(GltfFile& file, const GltfValue& primitive, const Gl
         vertices.color_components = colors->second.components;
     vertices.colors = take("COLOR_0", 3, 4);
     vertices.uvs = take("TEXCOORD_0", 2, 2);
-    // Attributes that are not compressed.
+    // Read the attributes that are not compressed.
     if (vertices.normals.empty())
         vertices.normals = floats_of(file, primitive, "NORMAL", 3, 3);
     if (vertices.colors.empty())
@@ -77,7 +77,7 @@ GltfPrimitives decompressed(GltfFile& file, const GltfValue& primitive, const Gl
         vertices.uvs = floats_of(file, primitive, "TEXCOORD_0", 2, 2);
     if (vertices.positions.empty())
         extension.fail("has no POSITION; export the file again");
-    // Written values refer to these vertices.
+    // Added values are written for each vertex of the accessor, so the counts must agree.
     if (const std::size_t count = vertex_count_of(file, primitive); count != vertices.count())
         extension.fail(fmt::format("has {} vertices, but POSITION has {}; export the file again",
                                    grouped(vertices.count()), grouped(count)));
@@ -87,7 +87,7 @@ GltfPrimitives decompressed(GltfFile& file, const GltfValue& primitive, const Gl
 
 /// The first index that is not below `limit`, or the end.
 auto first_above(std::span<std::uint32_t> indices, std::size_t limit) {
-    std::uint32_t largest = 0; // in a loop without exits, which is fast
+    std::uint32_t largest = 0; // computed first, because a loop without an early exit is fast
     for (const std::uint32_t index : indices)
         largest = std::max(largest, index);
     return largest < limit ? indices.end()
@@ -175,7 +175,7 @@ GltfArray<std::uint32_t> corners_of(GltfFile& file, const GltfValue& primitive, 
     if (mode != triangles)
         return GltfArray<std::uint32_t>(as_triangles(indices.all(), mode));
     const std::size_t count = indices.size() / 3 * 3;
-    std::array<std::uint32_t, 2> rest{}; // is dropped, but has to be in range, too
+    std::array<std::uint32_t, 2> rest{}; // dropped, but must be in range, too
     indices.decode(count, std::span(rest).first(indices.size() - count));
     indices.cut(count);
     return indices;

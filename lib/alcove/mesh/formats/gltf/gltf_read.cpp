@@ -28,7 +28,7 @@ constexpr Color white{255, 255, 255, 255};
 
 constexpr std::array<std::string_view, 4> geometry_extensions{"KHR_mesh_quantization", "EXT_meshopt_compression",
                                                               "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing"};
-/// Extensions of these kinds do not change geometry.
+/// Prefixes of extensions that do not change geometry.
 constexpr std::array<std::string_view, 9> appearance_extensions{"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                                                 "MSFT_texture_",  "KHR_lights_",  "EXT_lights_",
                                                                 "KHR_animation_", "KHR_xmp",      "KHR_audio"};
@@ -75,11 +75,11 @@ class GltfReader {
   private:
     GltfValue mesh_value(std::size_t mesh) const { return root_["meshes"][mesh]; }
 
-    /// Counts vertices and corners, including all instances, before any are decoded, and makes room for them.
+    /// Counts the vertices and corners of all instances before any are decoded, and makes room for them.
     void check_size() {
         struct Size {
             double vertices = 0.0, corners = 0.0, groups = 0.0;
-            std::size_t shared = 0; // vertices, if primitives with the same ones are counted once
+            std::size_t shared = 0; // vertices; those that several primitives share count once
         };
         std::map<std::size_t, Size> sizes; // by mesh
         Size all;
@@ -92,7 +92,7 @@ class GltfReader {
                     if (!is_surface(primitives[i]))
                         continue;
                     const GltfValue positions = *accessor_of(root_, primitives[i], "POSITION");
-                    const GltfAccessor checked(file_, positions, 3, 3); // its count fits its buffer view
+                    const GltfAccessor checked(file_, positions, 3, 3); // checks that the count fits the buffer view
                     const auto count = static_cast<double>(checked.count());
                     known->second.vertices += count;
                     known->second.groups += 1.0;
@@ -108,7 +108,7 @@ class GltfReader {
         }
         constexpr double bytes_per_vertex = sizeof(Vec3d) + sizeof(Vec3) + sizeof(Vec2) + sizeof(Color);
         constexpr double bytes_per_corner = sizeof(std::uint32_t) * (1.0 + 1.0 / 3.0);
-        constexpr double bytes_per_group = 1024.0; // with its names
+        constexpr double bytes_per_group = 1024.0; // including its names
         const double bytes =
             bytes_per_vertex * all.vertices + bytes_per_corner * all.corners + bytes_per_group * all.groups;
         const std::string name = file_.bytes().path().string();
@@ -128,7 +128,7 @@ class GltfReader {
         const auto [known, is_new] = primitives_.try_emplace(mesh);
         if (is_new) {
             known->second = find_primitives(mesh_value(mesh));
-            if (uses_[mesh] > 1) // or else they are decoded straight into the mesh
+            if (uses_[mesh] > 1) // otherwise they are decoded straight into the mesh
                 for (GltfPrimitives& primitives : known->second)
                     primitives.keep();
         }
@@ -168,7 +168,7 @@ class GltfReader {
         for (const GltfPrimitives& primitives : primitives_of(placement.mesh)) {
             const std::size_t first = mesh_.vertex_count();
             document_->vertices.push_back({placement_number, primitives.numbers, first, primitives.count()});
-            // In parallel where that pays: neither part needs what the other adds.
+            // In parallel if this saves time: neither part needs what the other adds.
             constexpr std::size_t many = 10'000; // vertices
             parallel_for(2, primitives.count() < many ? 2 : 1, [&](std::size_t begin, std::size_t end) {
                 if (begin == 0)
@@ -202,7 +202,8 @@ class GltfReader {
             white);
     }
 
-    /// Appends the values of vertices to those of the first `first` vertices. Either may lack them.
+    /// Appends the values of new vertices to those of the first `first` vertices. If only one of the two groups has
+    /// values, the other gets `missing`.
     template <class T, class Convert>
     void add_values(std::vector<T>& values, std::size_t first, const GltfArray<float>& floats, std::size_t components,
                     const Convert& convert, const T& missing = T(0.0f)) {
@@ -211,7 +212,7 @@ class GltfReader {
         if (values.empty())
             reserve_huge(values, vertex_room_);
         values.resize(first, missing);
-        std::vector<T> converted; // in the cache: fresh memory is written once
+        std::vector<T> converted; // stays in the cache, so that fresh memory is written only once
         floats.for_each_block([&](std::span<const float> block) {
             converted.clear();
             for (std::size_t i = 0; i < block.size(); i += components)
@@ -275,12 +276,12 @@ class GltfReader {
         return srgb_color({at(0), at(1), at(2)}, at(3));
     }
 
-    /// Rounds coordinates to floats, which other formats store, so that a scene and its copy in such a format have the
+    /// Rounds coordinates to floats. Other formats store floats, so a scene and its copy in such a format then have the
     /// same coordinates.
     void round_to_floats() {
         if (are_floats_)
             return;
-        double largest = 0.0; // distance by which a vertex would move
+        double largest = 0.0; // distance by which rounding moves a vertex
         for (const Vec3d& p : mesh_.positions)
             if (const Vec3d rounded{Vec3(p)}; rounded != p && is_finite(p))
                 largest = std::max(largest, glm::distance(rounded, p));
@@ -339,7 +340,7 @@ class GltfReader {
     std::size_t vertex_room_ = 0;
     std::map<std::size_t, std::size_t> uses_;                       ///< placements of each mesh that are still to come
     std::map<std::size_t, std::vector<GltfPrimitives>> primitives_; ///< by mesh
-    bool are_floats_ = true;                                        ///< no vertex was moved from its place in the file
+    bool are_floats_ = true;                                        ///< whether no transform has moved a vertex
     std::size_t left_out_ = 0, skinned_ = 0;
     std::set<std::string> morphed_;
 };

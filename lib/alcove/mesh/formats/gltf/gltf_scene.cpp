@@ -176,7 +176,8 @@ class SceneReader {
         }
     }
 
-    /// Finds the nodes of the scene, depth first. A scene may list a node twice, or a node together with its ancestor.
+    /// Finds the nodes of the scene, depth first. Each is visited once, although a scene may list a node twice, or
+    /// together with its ancestor.
     void find_visible(const GltfValue& nodes) {
         std::vector<char> seen(parents_.size(), 0);
         std::vector<std::size_t> to_visit = first_nodes();
@@ -200,7 +201,7 @@ class SceneReader {
                 f((*children)[c].index(parents_.size()));
     }
 
-    /// The names for a placement. Limited in length and number, because they take memory for every instance.
+    /// The names of a placement. They are limited in length and number, because they take memory for every instance.
     std::vector<std::string> names_of(std::size_t node, const GltfValue& mesh) const {
         constexpr std::size_t most_ancestors = 16;
         std::vector<std::string> names;
@@ -243,8 +244,8 @@ class SceneReader {
         }
     }
 
-    /// The transform of a skinned mesh in its bind pose. In this pose, the product of transform and inverse bind matrix
-    /// is the same for all joints, so the first joint is enough.
+    /// The transform of a skinned mesh in its bind pose. In this pose, the product of a joint's transform and its
+    /// inverse bind matrix is the same for all joints, so the first joint is enough.
     glm::dmat4 bind_pose(const GltfValue& skin) {
         const GltfValue joints = skin["joints"];
         const std::size_t joint = joints[0].index(parents_.size());

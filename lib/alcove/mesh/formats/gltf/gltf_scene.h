@@ -11,7 +11,7 @@
 
 namespace alcove {
 
-/// A mesh that a node shows.
+/// A mesh as a node places it in the scene.
 struct GltfPlacement {
     std::size_t node = 0, mesh = 0;
     glm::dmat4 to_scene{1.0};

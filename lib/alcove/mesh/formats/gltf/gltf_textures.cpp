@@ -10,8 +10,8 @@ namespace {
 
 constexpr const char *pbr = "pbrMetallicRoughness", *metallic_roughness = "metallicRoughnessTexture";
 
-/// Appends a texture. `texture` and `image` hold the properties of both, except the image data. \return the index of
-/// the texture in `textures`.
+/// Appends a texture and its image. `texture` and `image` hold their properties, except the image data. \return the
+/// index of the texture in `textures`.
 std::size_t append(GltfOutput& output, const GltfTexture& added, Json texture, Json image) {
     add_comments(image, {&added.comment, added.comment.empty() ? 0u : 1u});
     texture["source"] = output.add_png(added.png, std::move(image));
@@ -30,13 +30,13 @@ Json reference(std::size_t texture, int uv_set) {
     return reference;
 }
 
-/// Appends a material.
+/// Appends a material. \return its index.
 std::size_t add_material(Json& json, Json material = Json::object()) {
     json["materials"].push_back(std::move(material));
     return json["materials"].size() - 1;
 }
 
-/// The number of primitives of the file with that material, or without one if `material` is empty.
+/// The number of primitives of the file that have this material, or that have none if `material` is empty.
 std::size_t count_uses(const GltfValue& root, const std::optional<std::size_t>& material) {
     std::size_t uses = 0;
     const GltfValue meshes = root["meshes"];
@@ -56,13 +56,13 @@ bool has_number(const Json& json, std::size_t number) {
     return std::any_of(json.begin(), json.end(), [&](const Json& element) { return has_number(element, number); });
 }
 
-/// Whether the image of a texture can be replaced: `uses` is the number of references to the texture that will be
-/// replaced with it.
+/// Whether nothing else uses a texture and its image, so that the image can be replaced. `uses` is the number of
+/// references to the texture that do not count as other uses.
 bool is_replaceable(const Json& json, std::size_t number, std::size_t uses) {
     const Json& texture = json["textures"].at(number);
     if (!texture.contains("source") || texture.contains("extensions")) // an extension may name another image
         return false;
-    // Extensions of the file may refer to textures and images by keys of their own.
+    // Extensions of the file may refer to textures and images by other keys.
     const auto is_used_by_extensions = [&](std::size_t index) {
         return json.contains("extensions") && has_number(json["extensions"], index);
     };
@@ -91,7 +91,8 @@ void replace(GltfOutput& output, const GltfTexture& added, std::size_t number) {
     add_comments(output.json()["images"][image], {&added.comment, added.comment.empty() ? 0u : 1u});
 }
 
-/// Stores a texture that also replaces the metallic-roughness texture of the material. \return its index.
+/// Stores a texture that also replaces the metallic-roughness texture of the material. \return the index of the
+/// texture.
 std::size_t add_packed(GltfOutput& output, const GltfTexture& added, std::size_t material) {
     Json& json = output.json();
     const Json& own = json["materials"][material];
@@ -109,7 +110,7 @@ std::size_t add_packed(GltfOutput& output, const GltfTexture& added, std::size_t
     return made;
 }
 
-/// Stores a texture that is only the occlusion texture of the material. \return its index.
+/// Stores a texture that is only the occlusion texture of the material. \return the index of the texture.
 std::size_t add_own(GltfOutput& output, const GltfTexture& added, std::size_t material) {
     const Json& json = output.json();
     if (json["materials"][material].contains("occlusionTexture")) {

@@ -11,7 +11,7 @@
 namespace alcove {
 
 /// Adds each texture to its material. If other primitives use the material too, the primitives that show the texture
-/// get a copy of the material. `root` is the input.
+/// get a copy of the material. `root` is the JSON of the input.
 /// \return messages about replaced textures.
 std::vector<std::string> add_textures(GltfOutput& output, const GltfValue& root, std::span<const GltfTexture> textures);
 

@@ -10,11 +10,11 @@
 namespace alcove {
 
 bool is_data_uri(std::string_view uri);
-/// The bytes of a data URI in base64; empty if it is damaged.
+/// The bytes of a data URI in base64; empty if the URI is damaged.
 std::optional<std::string> data_of_uri(std::string_view uri);
 std::string data_uri(std::string_view media_type, std::string_view first, std::string_view second = {});
 
-/// The path of a relative URI, with its %XX decoded; empty if it has a scheme, is absolute, or leads out of its
+/// The path of a relative URI, with %XX decoded; empty if the URI has a scheme, is absolute, or leads out of the
 /// folder.
 std::optional<std::filesystem::path> path_of_uri(std::string_view uri);
 std::string uri_of_path(const std::filesystem::path& path);

@@ -42,7 +42,7 @@ std::size_t GltfValue::size() const {
 std::size_t GltfValue::count() const {
     constexpr double limit = 281474976710656.0; // 2^48: sums and products with a stride stay in range
     if (json_->is_number()) {
-        const double value = json_->get<double>(); // exporters write 3.0 too
+        const double value = json_->get<double>(); // some exporters write 3.0
         if (value >= 0.0 && value < limit && value == std::floor(value))
             return static_cast<std::size_t>(value);
     }

@@ -1,4 +1,4 @@
-/// A value in the JSON of a glTF file together with its location, so that errors can name it.
+/// A value in the JSON of a glTF file together with its location, so that errors can name the location.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
@@ -13,7 +13,7 @@
 
 namespace alcove {
 
-using Json = nlohmann::ordered_json; // writing keeps the order of the keys
+using Json = nlohmann::ordered_json; // keeps the order of the keys when it is written
 
 class GltfValue {
   public:
@@ -25,7 +25,8 @@ class GltfValue {
     /// \throw InputError "file: place: message"
     [[noreturn]] void fail(std::string_view message) const;
 
-    // Each function fails, see fail(), if the value is of another type or is missing.
+    // Except has(), each function calls fail() if the value has the wrong type. operator[], element() and target() also
+    // call fail() if the value that they return is missing.
     bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
     GltfValue operator[](const char* key) const;
     std::optional<GltfValue> find(const char* key) const;
@@ -43,7 +44,7 @@ class GltfValue {
     /// The value of a key, or `missing` if there is none.
     std::size_t count_or(const char* key, std::size_t missing) const;
     std::string text_or(const char* key, std::string_view missing) const;
-    /// The element of the root's array `array` that this index refers to.
+    /// The element of the root's array `array` to which this value, an index, refers.
     GltfValue target(const GltfValue& root, const char* array) const;
 
   private:

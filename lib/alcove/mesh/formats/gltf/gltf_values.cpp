@@ -18,13 +18,13 @@
 namespace alcove {
 namespace {
 
-/// A node that shows a mesh, and its placements: several with EXT_mesh_gpu_instancing.
+/// A node that shows a mesh, and its placements of the mesh. There are several with EXT_mesh_gpu_instancing.
 struct Instance {
     std::size_t node;
     std::vector<std::size_t> placements;
 };
 
-/// The values of the vertices of an instance, in the order of its blocks.
+/// The values of the vertices of an instance, one block (GltfVertices) after another.
 struct InstanceValues {
     std::vector<std::vector<float>> attributes;
     std::vector<Color> colors;
@@ -36,7 +36,7 @@ double mean_of(const std::vector<float>& values) {
                           : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// An RMSE relative to the range of the values.
+/// The RMSE between two sets of values, divided by their range.
 double difference(const std::vector<float>& a, const std::vector<float>& b, double range) {
     double squares = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -106,7 +106,7 @@ class ValueWriter {
         });
     }
 
-    /// The values of an instance: the mean over its placements. Directions are transformed to the space of the node.
+    /// The mean values over the placements of an instance. Directions are transformed to the space of the node.
     InstanceValues values_of(const Instance& instance) const {
         InstanceValues values;
         for (const Attribute* attribute : attributes_) {
@@ -132,7 +132,7 @@ class ValueWriter {
         return values;
     }
 
-    /// The colours of an instance: the mean, computed in linear light, over its placements.
+    /// The mean colours over the placements of an instance, computed in linear light.
     std::vector<Color> colors_of(const Instance& instance) const {
         std::vector<Color> colors;
         std::vector<glm::vec4> sums;
@@ -173,7 +173,7 @@ class ValueWriter {
     }
 
     double difference_of(const InstanceValues& a, const InstanceValues& b) const {
-        // The RMSE is at least the difference of the means.
+        // A quick test first: the RMSE is at least the difference of the means.
         double largest = ranges_.empty() || ranges_[0] == 0.0 ? 0.0 : std::fabs(a.mean - b.mean) / ranges_[0];
         for (std::size_t i = 0; i < attributes_.size() && largest <= mesh_.instance_error; ++i)
             largest = std::max(largest, difference(a.attributes[i], b.attributes[i], ranges_[i]));
@@ -220,13 +220,14 @@ class ValueWriter {
             const auto set = [&](const std::string& name, std::size_t accessor) {
                 for (const std::size_t p : vertices.primitives) {
                     primitives[p]["attributes"][name] = accessor;
-                    // Otherwise programs would read the old values.
+                    // Otherwise programs would read the old values from the compressed data.
                     if (const auto draco = Json::json_pointer("/extensions/KHR_draco_mesh_compression/attributes");
                         primitives[p].contains(draco))
                         primitives[p][draco].erase(name);
                 }
             };
-            // The accessor of an earlier bake, unless other attributes use it too, such as those of a copy made now.
+            // The accessor that an earlier bake wrote, unless other attributes use it too, as those of a new copy of
+            // the mesh do.
             const auto earlier = [&](const std::string& name) -> std::optional<std::size_t> {
                 const Json& attributes = primitives[vertices.primitives.front()]["attributes"];
                 if (!made_before_ || mesh >= document_.file->root()["meshes"].size() || !attributes.contains(name) ||
@@ -264,8 +265,8 @@ class ValueWriter {
         }
     }
 
-    /// Primitives may share compressed data but not the added values. Gives each its own buffer view of the same bytes,
-    /// because three.js shows the same values for all primitives that share a buffer view.
+    /// Primitives may share compressed data but not the added values. Gives each such primitive its own buffer view of
+    /// the same bytes, because three.js shows the same values for all primitives that share a buffer view.
     void separate_compressed() {
         const auto view = Json::json_pointer("/extensions/KHR_draco_mesh_compression/bufferView");
         const Json& old = document_.file->root().json()["meshes"];
@@ -377,7 +378,7 @@ void add_comments(Json& owner, std::span<const std::string> added) {
         return;
     Json& extras = owner["extras"];
     if (!extras.is_null() && (!extras.is_object() || (extras.contains("comments") && !extras["comments"].is_array())))
-        return; // belongs to another program
+        return; // these extras belong to another program
     Json comments = Json::array();
     if (extras.is_object() && extras.contains("comments"))
         comments = extras["comments"];

@@ -10,23 +10,25 @@
 
 namespace alcove {
 
-/// "_AO" for "ao".
+/// The name of an attribute in glTF: "_AO" for "ao".
 std::string gltf_attribute_name(std::string_view name);
 
-/// Linear colours of 16 bits.
+/// Converts colours to linear ones with 16 bits per component.
 std::vector<std::array<std::uint16_t, 4>> linear_colors(std::span<const Color> colors, ColorEncoding encoding);
 
-/// Whether the added colours are the attribute `ao`, so that COLOR_0 can be computed from `ao` without rounding to
+/// Whether the added colours show the attribute `ao`, so that COLOR_0 can be computed from `ao` without rounding to
 /// bytes.
 bool colors_are_ao(const Mesh& mesh);
-/// One grey per value.
+/// One linear grey per value, with 16 bits per component.
 std::vector<std::array<std::uint16_t, 4>> linear_greys(std::span<const float> values);
 
-/// Adds the attributes and colours of `mesh`. Instances of one glTF mesh share values that differ by an RMSE of at most
-/// Mesh::instance_error; the others get copies of the glTF mesh. \return messages about copies and replaced values.
+/// Adds the attributes and colours of `mesh`. Instances of one glTF mesh share one set of values if their values differ
+/// by an RMSE of at most Mesh::instance_error; the other instances get copies of the glTF mesh. \return messages about
+/// copies and replaced values.
 std::vector<std::string> add_values(GltfOutput& output, const GltfDocument& document, const Mesh& mesh);
 
-/// Puts comments into the extras of an asset or image. Each comment replaces those that begin with the same word.
+/// Puts comments into the extras of an asset or image. Each comment replaces the old ones that begin with the same
+/// word.
 void add_comments(Json& owner, std::span<const std::string> comments);
 
 }

@@ -21,7 +21,7 @@
 namespace alcove {
 namespace {
 
-/// The vertices of a glTF mesh: one for each different combination of a vertex with a texture coordinate and a normal.
+/// The vertices of a glTF mesh: one for each distinct combination of a vertex, a texture coordinate and a normal.
 struct SplitVertices {
     std::vector<std::uint32_t> source; ///< vertex of the Mesh
     std::vector<std::uint32_t> corner; ///< a corner with these values; empty if vertices are not split
@@ -102,7 +102,7 @@ class GltfMaker {
         else if (const std::vector<Color>& colors = adds ? mesh_.added_colors : mesh_.vertex_colors; !colors.empty())
             attributes["COLOR_0"] = output_.add_colors(
                 linear_colors(gathered(colors, 1), adds ? mesh_.added_encoding : ColorEncoding::srgb));
-        Json made = primitives(attributes); // adds materials, which moves the arrays of the root
+        Json made = primitives(attributes); // adds materials, which may move the arrays of the root
         json["meshes"].push_back({{"primitives", std::move(made)}});
         if (const std::string name = object_name(); !name.empty())
             json["nodes"][0]["name"] = json["meshes"][0]["name"] = in_one_line(name);
@@ -121,8 +121,8 @@ class GltfMaker {
         return result;
     }
 
-    /// Adds the positions as floats. If floats would move a vertex by more than 1e-6 of the diagonal, they are relative
-    /// to the centre of the mesh, and the node is moved there.
+    /// Adds the positions as floats. If rounding to floats would move a vertex by more than 1e-6 of the diagonal, the
+    /// positions are relative to the centre of the mesh, and the node is translated to this centre.
     std::size_t add_positions() {
         constexpr double tolerance = 1e-6;
         const Box box = mesh_.box();
@@ -159,7 +159,7 @@ class GltfMaker {
             normal = unit_or_zero(Vec3d(normal));
             if (normal == Vec3(0.0f))
                 normal = of_faces[vertices_.source[i]];
-            if (normal == Vec3(0.0f)) // glTF has no normals without a direction
+            if (normal == Vec3(0.0f)) // glTF does not allow zero normals
                 normal = {0.0f, 0.0f, 1.0f};
             floats.insert(floats.end(), {normal.x, normal.y, normal.z});
         }
@@ -306,7 +306,7 @@ std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::pat
                                     std::span<const GltfTexture> textures) {
     try {
         return write_checked(mesh, file, textures);
-    } catch (const Json::exception& error) { // from parts that reading ignores
+    } catch (const Json::exception& error) { // from parts that the reader ignores
         throw InputError(fmt::format("{}: its JSON is not valid glTF: {}; export it again", mesh.name, error.what()));
     }
 }

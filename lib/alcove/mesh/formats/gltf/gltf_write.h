@@ -18,13 +18,13 @@ struct GltfTexture {
     std::vector<std::pair<std::size_t, std::size_t>> primitives;
     int uv_set = 0;
     std::string png;        ///< the bytes of the image
-    std::string comment{};  ///< how the image was made; the first word is the program
+    std::string comment{};  ///< how the image was made; the first word names the program
     bool is_packed = false; ///< the image also replaces the metallic-roughness texture of the material
 };
 
-/// Writes a .glb or .gltf like write_mesh(), with textures. Textures that the program made earlier, and
+/// Writes a .glb or .gltf like write_mesh(), with textures. Textures from an earlier run of the program, and
 /// metallic-roughness textures that are replaced, are removed if nothing else uses them. If the mesh does not come from
-/// glTF, its one texture is added to all materials.
+/// glTF, its only texture is added to all materials.
 std::vector<std::string> write_gltf(const Mesh& mesh, const std::filesystem::path& file,
                                     std::span<const GltfTexture> textures);
 

@@ -23,8 +23,8 @@ namespace {
 struct Material {
     std::optional<Vec3> diffuse{};       // Kd
     std::optional<double> opacity{};     // d, or else 1 - Tr
-    std::vector<std::string> textures{}; // their keywords
-    bool emits = false;                  // Ke
+    std::vector<std::string> textures{}; // the keywords of its textures
+    bool emits = false;                  // whether Ke is not black
 };
 using Materials = std::map<std::string, Material, std::less<>>;
 
@@ -35,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
     return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
-/// Cuts the first word off the text.
+/// Removes the first word from the text and returns it.
 std::string_view next_word(std::string_view& text) {
     text = trimmed(text);
     const std::string_view word = text.substr(0, text.find_first_of(" \t"));
@@ -160,7 +160,7 @@ std::string left_out(const std::set<const Material*>& used) {
     return parts.empty() ? "" : fmt::format("not shown: {}; materials are shown by their Kd", fmt::join(parts, ", "));
 }
 
-/// Gives the faces of each use the Kd of its material.
+/// Gives the faces of each material use the Kd of that material.
 void assign(const Materials& materials, const ObjDocument& document, FaceMaterials& result) {
     std::set<std::string_view> without;
     std::set<const Material*> used;

@@ -1,4 +1,4 @@
-/// The colours that the material files (.mtl) of an OBJ give its faces.
+/// The colours that the material files (.mtl) of an OBJ give to its faces.
 #pragma once
 
 #include "alcove/mesh/mesh.h"
@@ -11,7 +11,7 @@ namespace alcove {
 
 struct FaceMaterials {
     std::vector<std::optional<Vec3>> diffuse; ///< the Kd of each face, in [0, 1]; empty if the mesh has no material
-    std::vector<std::string> warnings;        ///< files that cannot be read, and properties of materials other than Kd
+    std::vector<std::string> warnings;        ///< about unreadable files, and properties of materials other than Kd
 };
 
 /// Reads the files named by an OBJ's 'mtllib' lines. Looks for each first at the given path, relative to the OBJ's

@@ -1,4 +1,4 @@
-/// The text of an OBJ file, and the positions of its vertices in it.
+/// The text of an OBJ file, and the places in the text where its vertices are.
 #pragma once
 
 #include "alcove/base/detail/messages.h"
@@ -48,7 +48,7 @@ class ObjDocument : public SourceDocument {
 
     /// One text for each of other_lines: "2 'usemtl' lines", "1 comment line".
     std::vector<std::string> other_line_counts() const {
-        constexpr std::string_view plural = "lines"; // in each description
+        constexpr std::string_view plural = "lines"; // ends each description
         std::vector<std::string> counts;
         for (const auto& [what, count] : other_lines) {
             std::string one = what;

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_name = 16;   // tokens: a name with blanks consists of several
-constexpr std::size_t most_lookups = 4096; // of files; ends the work on a hostile text
+constexpr std::size_t most_lookups = 4096; // of files; limits the work on a malicious text
 
 bool is_absolute(std::string_view name) {
     const bool has_drive = name.size() > 2 && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
@@ -48,7 +48,7 @@ class NameMover {
     }
 
   private:
-    /// Takes as many tokens as possible that together name a file.
+    /// Rewrites the names on a line. A name consists of as many tokens as possible that together lead to a file.
     void move_line(const char* keyword) {
         line_.move_to(keyword);
         line_.word("a keyword");
@@ -65,7 +65,8 @@ class NameMover {
         }
     }
 
-    /// Rewrites a name so that it can be found from the output folder. \return false if it does not name a file.
+    /// Rewrites a name so that it leads to the same file from the output folder. \return false if the name leads to no
+    /// file or cannot be rewritten.
     bool move_name(std::string_view quoted) {
         const std::string_view name = without_quotes(quoted);
         if (is_absolute(name))
@@ -77,7 +78,7 @@ class NameMover {
         if (fs::equivalent(from_ / *file, to_ / fs::path(name), ignored))
             return true;
         const std::string seen = name_seen_from_output(from_ / *file);
-        // Such a name would end the line or begin a comment.
+        // A line break in the name would end the line, and " #" would begin a comment.
         if (seen.empty() || seen.find_first_of("\r\n") != std::string::npos || seen.find(" #") != std::string::npos)
             return false;
         if (moved_.replacements.empty())

@@ -1,4 +1,5 @@
-/// The names of other files in an OBJ text, such as material libraries, when the text is written to another folder.
+/// Adapts the names of other files in an OBJ text, such as material libraries, when the text is written to another
+/// folder.
 #pragma once
 
 #include "alcove/mesh/formats/file_bytes.h"
@@ -22,8 +23,8 @@ struct MovedNames {
 };
 
 /// Finds the relative names on the `file_lines` of the document and replaces them so that they lead from `folder` to
-/// the same files. Names may contain blanks, quotes around them and backslashes between folders. Names of files that
-/// do not exist are kept. `text` holds the text of the document.
+/// the same files. Names may contain blanks, be in quotes, and have backslashes between folders. Names of files that do
+/// not exist are kept. `text` holds the text of the document.
 MovedNames moved_names(const ObjDocument& document, const FileBytes& text, const std::filesystem::path& folder);
 
 }

@@ -1,4 +1,4 @@
-/// The keywords of OBJ lines (Wavefront 1993, with its superseded ones).
+/// The keywords of OBJ lines (Wavefront 1993), including the superseded ones.
 #pragma once
 
 #include <array>
@@ -17,10 +17,11 @@ inline constexpr std::array<std::string_view, 40> obj_text_keywords{
 /// The index of a keyword in `obj_text_keywords`.
 std::optional<std::size_t> obj_text_keyword(std::string_view keyword);
 
-/// Whether other files are named on lines of that keyword.
+/// Whether lines with this keyword name other files.
 bool names_files(std::string_view keyword);
 
-/// Whether an unknown keyword is one of `v`, `vt`, `vn` and `f` with other characters before or directly after it.
+/// Whether an unknown keyword is one of `v`, `vt`, `vn` and `f` with any characters before it, or with a number
+/// directly after it.
 bool hides_data_keyword(std::string_view keyword);
 
 }

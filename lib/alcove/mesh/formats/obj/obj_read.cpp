@@ -89,8 +89,8 @@ class ObjReader {
 
     std::size_t offset_of(const char* place) const { return static_cast<std::size_t>(place - file_.begin()); }
 
-    /// Reads the rest of the line; tokens that are not numbers become non-finite values. \return whether there are from
-    /// `least` to `values.size()` tokens, all of them finite numbers.
+    /// Reads the rest of the line; tokens that are not numbers become NaN. \return whether there are from `least` to
+    /// `values.size()` tokens, all of them finite numbers.
     bool read_values(std::span<double> values, std::size_t least) {
         std::size_t count = 0;
         bool finite = true;
@@ -137,7 +137,7 @@ class ObjReader {
         }
     }
 
-    /// Starts a group of faces at the first face after a line that names one.
+    /// Starts a group of faces, at the first face after a line that names an object, a group or a material.
     void add_group() {
         starts_group_ = false;
         if (mesh_.groups.empty() && mesh_.face_count() > 0)
@@ -194,7 +194,7 @@ class ObjReader {
         return negative ? -value : value;
     }
 
-    /// The vertex at `at`, counted from 0; a negative index counts back from the last vertex read.
+    /// The vertex index at `at`, converted to count from 0. A negative one counts back from the last vertex read.
     std::uint32_t vertex_at(const char*& at) {
         const char* const place = at;
         const std::int64_t value = integer_at(at);
@@ -209,7 +209,8 @@ class ObjReader {
         return static_cast<std::uint32_t>(index - 1);
     }
 
-    /// The reference at `at` to one of the texture coordinates or normals, counted from 1; 0 if there is none.
+    /// The reference at `at` to one of the texture coordinates or normals, counted from 1; 0 if there is none, or if
+    /// its index is out of range for any file.
     std::uint32_t reference_at(const char*& at, std::size_t so_far, References& references) {
         if (*at != '-' && !(*at >= '0' && *at <= '9'))
             return 0;
@@ -292,7 +293,7 @@ class ObjReader {
     std::shared_ptr<ObjDocument> document_;
     Mesh mesh_;
     ObjValues values_;
-    std::string object_, group_, material_; ///< names of the next faces
+    std::string object_, group_, material_; ///< names that apply to the next faces
     bool starts_group_ = false;
     std::int64_t largest_vertex_ = 0; ///< checked at the end, as faces may precede their vertices
     const char* largest_vertex_at_ = nullptr;

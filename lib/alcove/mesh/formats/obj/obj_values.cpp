@@ -12,14 +12,13 @@ namespace {
 
 constexpr std::uint32_t unset = 0xffffffffu;
 
-/// Ordered by vertex, then by value, to find the distinct normals of each vertex.
+/// A normal of a vertex. Ordered by vertex, then by value, to find the distinct normals of each vertex.
 struct VertexNormal {
     std::uint32_t vertex;
     float x, y, z;
     auto operator<=>(const VertexNormal&) const = default;
 };
 
-/// Adds values of an OBJ file to a mesh.
 class ValueAdder {
   public:
     ValueAdder(Mesh& mesh, ObjValues& values, const FileBytes& file) : mesh_(mesh), values_(values), file_(file) {}
@@ -112,7 +111,7 @@ class ValueAdder {
         warn(without, "face corner has", "face corners have", "no texture coordinate, unlike others; (0, 0) is used");
     }
 
-    /// The normal of a corner, counted from 1; 0 if it has none or one without a direction.
+    /// The index of the normal of a corner, counted from 1; 0 if there is no normal or it has no direction.
     std::uint32_t normal_of(const CornerReference& corner) const {
         return corner.normal != 0 && values_.normals[corner.normal - 1] != Vec3(0.0f) ? corner.normal : 0;
     }

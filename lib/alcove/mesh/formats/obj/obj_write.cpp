@@ -22,7 +22,8 @@ void append(Buffer& to, std::string_view text) {
     to.append(text.data(), text.data() + text.size());
 }
 
-/// The shortest decimal that reads back as the same float if the value is one, otherwise as the same double.
+/// Appends the shortest decimal that reads back as the same value, as a float if the value is a float, otherwise as a
+/// double.
 void append_number(Buffer& to, double value) {
     const auto single = static_cast<float>(value);
     if (static_cast<double>(single) == value)
@@ -31,7 +32,7 @@ void append_number(Buffer& to, double value) {
         fmt::format_to(std::back_inserter(to), " {}", value);
 }
 
-/// " 0.5020" for 128: four decimals distinguish all 256 values.
+/// Writes bytes as decimals, such as " 0.5020" for 128. Four decimals distinguish all 256 values.
 class ColorWriter {
   public:
     ColorWriter() {
@@ -170,7 +171,7 @@ std::vector<std::string> write_obj(const Mesh& mesh, const std::filesystem::path
     std::vector<std::string> lost;
     for (const Attribute& attribute : mesh.attributes)
         if (mesh.added_colors.empty() ||
-            (attribute.name != "ao" && attribute.name != "quality")) // those are the colours
+            (attribute.name != "ao" && attribute.name != "quality")) // these two equal the colours
             lost.push_back("not stored in OBJ: attribute " + in_quotes(attribute.name));
     const std::vector<Color>& colors = mesh.added_colors.empty() ? mesh.vertex_colors : mesh.added_colors;
     if (std::any_of(colors.begin(), colors.end(), [](const Color& c) { return c[3] != 255; }))

@@ -18,7 +18,7 @@ std::size_t width_of(OffGroup group, std::size_t color_components) {
     return group == OffGroup::normal ? 3 : group == OffGroup::uv ? 2 : color_components;
 }
 
-/// How well the numbers fit an order of the groups; the first members count most.
+/// How well the numbers fit an order of the groups. Earlier members count more than later ones.
 struct Fit {
     bool colors_in_range = true;
     std::size_t unit_normals = 0, uvs_in_texture = 0, opaque_colors = 0;
@@ -95,7 +95,7 @@ std::string OffLayout::columns(std::size_t color_components) const {
 std::optional<OffLayout> off_layout(std::string_view token) {
     OffLayout layout;
     std::string_view rest = token;
-    int last_rank = 0; // of a prefix in [ST][C][N][4][n]
+    int last_rank = 0; // place of the last prefix in the order [ST][C][N][4][n]
     const auto take = [&](std::string_view prefix, int rank) {
         layout.is_standard &= rank > last_rank;
         last_rank = rank;

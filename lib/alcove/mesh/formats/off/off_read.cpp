@@ -15,7 +15,7 @@ namespace {
 /// Limit for counting tokens on the rest of a line: more than the values that a vertex can declare.
 constexpr std::size_t most_tokens = 16;
 
-/// The order of groups is chosen from this many vertices.
+/// The order of the groups is chosen from the values of this many vertices.
 constexpr std::size_t sampled_vertices = 1000;
 
 /// Colours as in the file. Whether they range to 1 or to 255 is known only after all are read.
@@ -32,7 +32,7 @@ class ColorList {
     }
     std::size_t size() const { return indices_.size(); }
 
-    /// `count` colours; those not given are the default of the format, a grey of two thirds.
+    /// `count` colours. Elements without a colour get the default of the format, a grey of two thirds.
     std::vector<Color> resolved(std::size_t count) const {
         std::vector<Color> colors(count, Color{170, 170, 170, 255});
         const double scale = fraction_ || largest_ <= 1.0 ? 255.0 : 1.0;
@@ -158,13 +158,13 @@ class OffReader {
                  : "; the keyword " + keyword + " does not follow the order of the format, " + "[ST][C][N][4][n]OFF"));
     }
 
-    /// Whether the line after the two other counts has an edge count.
+    /// Whether the line after the two other counts has a single number, which is then the edge count.
     bool next_line_is_one_number() {
         TextScanner ahead(text_);
         return !ahead.at_end() && ahead.tokens_on_line(2) == 1;
     }
 
-    /// Programs disagree on the order of normals, colours and texture coordinates.
+    /// Chooses the order of normals, colours and texture coordinates, on which programs disagree.
     void choose_order() {
         TextScanner ahead(text_);
         if (ahead.at_end())
@@ -202,8 +202,8 @@ class OffReader {
             }
         if (text_.at_line_end())
             return;
-        // Vertices may share a line. But if every vertex line has the same number of values, the values beyond the
-        // declared ones belong to its vertex.
+        // Vertices may share a line. But if every vertex line has the same number of values, the values after the
+        // declared ones belong to the vertex of their line.
         if (v == 0 ? every_vertex_line_has(tokens) : undeclared_ == v) {
             ++undeclared_;
             text_.next_line();
@@ -351,7 +351,7 @@ class OffReader {
     TextScanner text_;
     Mesh mesh_;
     OffLayout layout_;
-    std::size_t color_components_ = 4; ///< of vertices, if their order was chosen
+    std::size_t color_components_ = 4; ///< of vertices, if choose_order() counted them
     bool binary_ = false;
     std::size_t vertices_ = 0, faces_ = 0, map_indices_ = 0, undeclared_ = 0;
     ColorList vertex_colors_, face_colors_;

@@ -138,7 +138,7 @@ std::vector<std::string> PlyDocument::contents() const {
     constexpr std::array<std::string_view, 18> of_vertices{"x",  "y",  "z",   "nx",    "ny",        "nz",
                                                            "s",  "t",  "u",   "v",     "texture_u", "texture_v",
                                                            "s0", "t0", "red", "green", "blue",      "alpha"};
-    // Face colours are left out here, since writers report them for all input formats.
+    // The colours of faces count as stored, because writers report them for all input formats.
     constexpr std::array<std::string_view, 7> of_faces{"vertex_indices", "vertex_index", "texcoord", "red",
                                                        "green",          "blue",         "alpha"};
     std::vector<std::string> all;

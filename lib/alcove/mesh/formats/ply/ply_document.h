@@ -36,7 +36,7 @@ T value_at(const std::byte* bytes) {
     return value;
 }
 
-/// The little-endian value of an integral type at `bytes`; not aligned.
+/// The little-endian value of an integral type at `bytes`, which need not be aligned.
 inline std::int64_t integer_at(const std::byte* bytes, PlyType type) {
     switch (type) {
     case PlyType::int8:
@@ -54,7 +54,7 @@ inline std::int64_t integer_at(const std::byte* bytes, PlyType type) {
     }
 }
 
-/// The little-endian value at `bytes`; not aligned.
+/// The little-endian value at `bytes`, which need not be aligned.
 inline double number_at(const std::byte* bytes, PlyType type) {
     switch (type) {
     case PlyType::float32:
@@ -80,7 +80,7 @@ struct PlyElement {
     std::span<const std::byte> rows{};
     std::shared_ptr<const void> keeper{};
 
-    /// Sets the rows, which this element and its copies own.
+    /// Sets the rows. This element and its copies share the memory.
     void keep(std::vector<std::byte> new_rows);
     const PlyProperty* find(std::string_view property) const;
     bool has_lists() const;
@@ -134,8 +134,8 @@ const PlyProperty* corner_list(const PlyElement& element);
 /// The element `face` of a mesh: vertex_indices, and texcoord, red green blue alpha if the mesh has them.
 PlyElement face_element(const Mesh& mesh);
 
-/// A document for a mesh that was not read from a PLY file: `vertex` with x y z, and nx ny nz, s t, red green blue
-/// alpha if the mesh has them; and face_element().
+/// A document for a mesh that was not read from a PLY file. Its elements are face_element() and `vertex`, with x y z,
+/// and with nx ny nz, s t, red green blue alpha if the mesh has them.
 /// Coordinates are float, or double if float would move a vertex by more than 1e-6 of the diagonal.
 PlyDocument make_ply_document(const Mesh& mesh);
 

@@ -20,7 +20,7 @@ std::string_view without_blanks_around(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// Removes the first word of `line` and the blanks around it. Empty at the end of the line.
+/// Removes the first word of `line` and the blanks around it. Returns the word, which is empty at the end of the line.
 std::string_view take_word(std::string_view& line) {
     line = without_blanks_around(line);
     const std::string_view word = line.substr(0, std::min(line.find_first_of(" \t\v\f"), line.size()));
@@ -102,7 +102,7 @@ class HeaderParser {
             fail(in_quotes(name) + " is not a PLY format; these are ascii, binary_little_endian and binary_big_endian");
     }
 
-    /// The name may contain blanks.
+    /// The name comes before the count and may contain blanks.
     void parse_element(std::string_view rest) {
         const std::size_t last_blank = rest.find_last_of(" \t\v\f");
         if (last_blank == std::string_view::npos)

@@ -43,7 +43,7 @@ std::optional<std::array<const PlyProperty*, N>> find_all(const PlyElement& elem
 /// An element that may be the faces under another name, because it has a list of whole numbers.
 const PlyElement* misnamed_faces(const PlyDocument& document) {
     for (const PlyElement& element : document.elements)
-        if (element.name != "vertex" && element.name != "range_grid") // the points of a range scan, in rows
+        if (element.name != "vertex" && element.name != "range_grid") // range_grid: rows of scanned points
             for (const PlyProperty& property : element.properties)
                 if (property.count_type && is_integral(property.type))
                     return &element;
@@ -109,7 +109,7 @@ double full_scale(double largest, bool integral) {
     return largest <= 1.0 + rounding && !integral ? 1.0 : largest <= 255.0 + rounding ? 255.0 : 65535.0;
 }
 
-/// Reads components `first` and the following ones, which have the same range.
+/// Reads the components of colours from index `first` on. These components have a common range.
 void read_components_of_colors(const PlyElement& element, std::span<const PlyProperty* const> properties,
                                std::size_t first, std::vector<Color>& colors) {
     double largest = 0.0;
@@ -117,7 +117,7 @@ void read_components_of_colors(const PlyElement& element, std::span<const PlyPro
         if (property->type != PlyType::uint8)
             for_each_value(element, *property, [&](std::size_t, const std::byte* bytes) {
                 const double value = number_at(bytes, property->type);
-                largest = value > largest ? value : largest; // not NaN
+                largest = value > largest ? value : largest; // ignores NaN
             });
     for (const PlyProperty* property : properties) {
         const double scale = 255.0 / full_scale(largest, is_integral(property->type));
@@ -190,7 +190,7 @@ void read_corner_uvs(const PlyElement& faces, Mesh& mesh) {
                                 " no texture coordinates for each corner; (0, 0) is used");
 }
 
-/// Warns of bytes after the rows. If they are text, quotes its first line.
+/// Warns of bytes after the rows. If these are text, quotes their first line.
 void warn_of_rest(const FileBytes& file, PlyFormat format, std::size_t bytes, Mesh& mesh) {
     const std::string_view rest = file.view().substr(file.size() - bytes);
     const bool is_text = format == PlyFormat::ascii;

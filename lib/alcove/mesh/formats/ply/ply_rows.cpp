@@ -33,7 +33,7 @@ class RowBuffer {
 
   private:
     void flush() {
-        // Estimate the total size from the first rows, with a margin, since growing the array would copy them.
+        // Estimate the total size from the first rows, with a margin, because growing the array would copy all rows.
         if (rows_.empty() && ended_ > 0)
             reserve_huge(rows_, std::min(max_bytes_, used_ * element_.count / ended_ * 9 / 8));
         rows_.insert(rows_.end(), block_.begin(), block_.begin() + static_cast<std::ptrdiff_t>(used_));

@@ -8,7 +8,7 @@
 namespace alcove {
 namespace {
 
-/// Unsigned types cannot hold -1.
+/// The index that separates strips: -1, or the largest value of an unsigned type, which cannot hold -1.
 std::int64_t separator_of(PlyType type) {
     switch (type) {
     case PlyType::uint8:

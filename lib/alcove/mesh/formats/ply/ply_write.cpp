@@ -46,8 +46,8 @@ std::vector<Column> added_columns(const Mesh& mesh) {
     return columns;
 }
 
-/// One step of copying a row: `fixed` bytes unchanged, a list unchanged, or a column, which replaces the property
-/// `old` or, if that is null, comes after the others.
+/// One step in copying a row. Copies `fixed` bytes or the list `old` unchanged, or writes `column` in place of the
+/// property `old` or, if `old` is null, after all other properties.
 struct Step {
     std::size_t fixed = 0;
     const PlyProperty* old = nullptr;
@@ -149,8 +149,8 @@ std::string header_comments(const PlyDocument& document, const Mesh& mesh) {
     return text;
 }
 
-/// Lists the vertex properties that the columns replace, except complete colours and values that, according to a
-/// comment, an earlier run of the same program made.
+/// Lists the vertex properties that the columns replace, except colours that the reader understood, and except values
+/// that, according to a comment, an earlier run of the same program made.
 void list_replaced(const PlyDocument& document, const Mesh& mesh, std::vector<std::string>& lost) {
     const auto list = [&](const std::string& name) {
         if (document.has_vertex_property(name))

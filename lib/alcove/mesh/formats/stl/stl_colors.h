@@ -3,7 +3,8 @@
 /// The 16 bits after a facet hold 5 bits per component, by one of two conventions:
 ///  - VisCAM: bit 15 marks a valid colour; blue is in the low bits.
 ///  - Magics: the header holds "COLOR=" and the red, green, blue and alpha of the whole part. A facet has this colour
-///    if its bit 15 is set; otherwise it has its own colour, with red in the low bits.
+///    if its bit 15 is set, or if the bits of all facets are 0. Otherwise it has its own colour, with red in the low
+///    bits.
 #pragma once
 
 #include "alcove/base/types.h"

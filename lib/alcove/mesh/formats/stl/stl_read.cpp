@@ -1,4 +1,4 @@
-// Format: 3D Systems (1988). Its facets share no vertices.
+// Format: 3D Systems (1988). The facets of the format share no vertices.
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/types.h"
 #include "alcove/mesh/detail/weld.h"
@@ -61,7 +61,7 @@ bool has_binary_size(const FileBytes& file) {
 }
 
 /// Many binary files begin with the keyword of the text format too, but only binary files contain control characters.
-/// Control characters at the very end of a text are padding.
+/// At the very end of a text, control characters are padding.
 bool is_text(const FileBytes& file) {
     constexpr std::string_view padding("\0\x1a \t\r\n", 6), spacing = "\t\n\v\f\r\x1a";
     const std::string_view text = file.view().substr(0, file.view().find_last_not_of(padding) + 1).substr(0, 1024);
@@ -70,7 +70,8 @@ bool is_text(const FileBytes& file) {
     });
 }
 
-/// Accepts the variants that exporters write: `end solid part`, `endsolidpart`, a solid without its first or last line.
+/// Reads the text format. Accepts the variants that exporters write: `end solid part`, `endsolidpart`, a solid without
+/// its first or last line.
 class TextReader {
   public:
     explicit TextReader(const FileBytes& file) : file_(file), text_(file, file.begin()) {}
@@ -102,10 +103,10 @@ class TextReader {
             in_solid_ = false;
         else if (!is_padding(word))
             skip(word);
-        text_.next_line(); // the name
+        text_.next_line(); // skips the name
     }
 
-    /// Notes a line that does not belong to a solid, such as the last one of a web page.
+    /// Counts a line that does not belong to a solid, such as the last line of a web page.
     void skip(std::string_view word) {
         for (const char* keyword : {"normal", "outer", "loop", "vertex", "endloop", "endfacet", "end"})
             if (same_word(word, keyword))
@@ -177,7 +178,8 @@ class TextReader {
     std::string_view first_skipped_;
 };
 
-/// The number of facets to read: the declared one or, if it was never filled in, as many as the file has room for.
+/// The number of facets to read: the declared number or, if the exporter never filled it in, as many as the file has
+/// room for.
 std::size_t facets_of(const FileBytes& file, std::vector<std::string>& warnings) {
     const std::size_t declared = declared_facets(file), bytes = file.size() - preamble_size;
     const std::size_t room = bytes / facet_size;
