@@ -109,7 +109,7 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
                                      grid->getName()));
         level.voxel = voxel;
         if (!stack.lattice)
-            level.origin = rounded_to_floats(level.origin); // exactly as before it was written
+            level.origin = rounded_to_floats(level.origin); // restores the exact origin
         level.outer_band = static_cast<float>(number(*grid, "alcove:outer_band"));
         level.inner_band = static_cast<float>(number(*grid, "alcove:inner_band"));
         if (!(level.outer_band >= 3.0f && level.inner_band > 0.0f))
@@ -121,7 +121,7 @@ GridStack our_stack(std::vector<FloatGrid::Ptr> grids, const std::filesystem::pa
     return stack;
 }
 
-/// A single level whose voxels are cubes along the axes.
+/// A stack of a single level, whose voxels are cubes along the axes.
 GridStack one_level(const FloatGrid::Ptr& grid, const std::filesystem::path& file) {
     const openvdb::BBoxd scene = grid->transform().indexToWorld(grid->evalActiveVoxelBoundingBox());
     Box box;
@@ -139,7 +139,7 @@ GridStack one_level(const FloatGrid::Ptr& grid, const std::filesystem::path& fil
     return stack;
 }
 
-/// The finest level of a stack of solids, in scene units.
+/// The finest level of a stack, in scene units. Refuses a stack that is a sheet.
 VdbGrid solid_of(const GridStack& stack, const std::filesystem::path& file) {
     const FloatGrid::Ptr finest = stack.levels.front().grid->grid;
     if (stack.sign == Sign::sheet)
@@ -150,10 +150,10 @@ VdbGrid solid_of(const GridStack& stack, const std::filesystem::path& file) {
     return {finest};
 }
 
-/// If `grids` are one stack that Alcove wrote, this stack. Otherwise the union of all grids.
+/// The stack that `grids` make up, if they are one stack that Alcove wrote. Otherwise the union of all grids.
 GridStack stack_of(const std::vector<VdbGrid>& grids, const std::filesystem::path& file, double memory_limit,
                    std::vector<std::string>& warnings) {
-    std::map<std::string, std::vector<FloatGrid::Ptr>> stacks; // by the text of their frames
+    std::map<std::string, std::vector<FloatGrid::Ptr>> stacks; // by frame, as text
     std::vector<VdbGrid> solids;
     std::vector<std::string> useless;
     for (const VdbGrid& grid : grids) {
@@ -187,7 +187,7 @@ GridStack stack_of(const std::vector<VdbGrid>& grids, const std::filesystem::pat
     }
 }
 
-/// The grids of a selection, at least one, and their names.
+/// The grids of a selection (at least one) and their names.
 struct Chosen {
     std::vector<VdbGrid> grids;
     std::vector<std::string> names;

@@ -26,7 +26,8 @@ namespace io = openvdb::io;
 
 class GridReader : public io::Archive {
   public:
-    /// Reads the grids whose position in the file is `wanted`, and the grids whose trees they share.
+    /// Returns the grids for which `wanted`, by position in the file, is true. Also reads the grids whose trees they
+    /// share.
     std::vector<openvdb::GridBase::Ptr> read(std::istream& stream, const VdbStructure& structure,
                                              const std::vector<bool>& wanted) {
         readHeader(stream);
@@ -65,7 +66,7 @@ std::vector<openvdb::GridBase::Ptr> read_bases(const std::filesystem::path& file
     std::ifstream stream(file, std::ios::binary);
     try {
         openvdb::initialize();
-        // Without exceptions, OpenVDB would loop over a damaged count past the end of the file.
+        // Without exceptions, a damaged count would keep OpenVDB in a loop after the end of the file.
         stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
         return GridReader().read(stream, structure, wanted);
     } catch (const std::ios_base::failure&) {
@@ -73,7 +74,7 @@ std::vector<openvdb::GridBase::Ptr> read_bases(const std::filesystem::path& file
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        // OpenVDB's message may contain arbitrary bytes of the file: keep a readable prefix.
+        // OpenVDB's message may contain arbitrary bytes of the file: keep a readable beginning.
         std::string reason = error.what();
         reason.resize(std::min<std::size_t>(reason.size(), 100));
         std::replace_if(

@@ -48,7 +48,7 @@ std::uint32_t sum_of(const Leaf& leaf) {
         .sum();
 }
 
-/// The checksum of an internal node with the values of its tiles.
+/// The checksum of an internal node, including the values of its tiles.
 template <class Node>
 std::uint32_t sum_of(const Node& node) {
     std::vector<float> values;

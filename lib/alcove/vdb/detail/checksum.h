@@ -1,4 +1,4 @@
-/// The checksum that detects changes of the grids that Alcove writes.
+/// Computes the checksum by which changes of the grids that Alcove wrote are detected.
 #pragma once
 
 #include "alcove/grid/grid_stack.h"

@@ -37,7 +37,7 @@ void scale_to_scene(const FloatGrid::Ptr& grid, std::vector<std::string>& warnin
                                    in_one_line(grid->getName()), slope));
 }
 
-/// Refuses a grid whose active voxels do not have the bounding box in its metadata.
+/// Refuses a grid if the bounding box of its active voxels differs from the one in its metadata.
 void check_bounding_box(const FloatGrid& grid, const openvdb::CoordBBox& voxels, const std::filesystem::path& file) {
     const auto low = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_min"),
                high = grid.getMetadata<openvdb::Vec3IMetadata>("file_bbox_max");
@@ -46,8 +46,8 @@ void check_bounding_box(const FloatGrid& grid, const openvdb::CoordBBox& voxels,
                                  grid.getName()));
 }
 
-/// Limits the background, which some programs leave far beyond the band, to the largest value within the band. Either
-/// value says only that no distance is known.
+/// Limits the background, which some programs leave far beyond the band, to the largest value within the band. Both
+/// values only mean that the distance is unknown.
 void limit_background(FloatGrid& grid) {
     float largest = 0.0f;
     for (auto value = grid.cbeginValueOn(); value; ++value)
@@ -91,7 +91,7 @@ Vec3d origin_of(const VdbGrid& grid) {
 Vec3d rounded_to_floats(const Vec3d& p) {
     Vec3d result;
     for (int axis = 0; axis < 3; ++axis) {
-        const volatile auto rounded = static_cast<float>(p[axis]); // GCC 12 vectorizes the conversion away otherwise
+        const volatile auto rounded = static_cast<float>(p[axis]); // else GCC 12 vectorizes the conversion away
         result[axis] = static_cast<double>(rounded);
     }
     return result;

@@ -14,7 +14,7 @@
 
 namespace alcove {
 
-/// Reads a file forward; a length that exceeds the rest of the file is an error.
+/// Reads value after value. \throw InputError for a length that exceeds the rest of the file, or an invalid offset.
 class ForwardReader {
   public:
     explicit ForwardReader(const std::filesystem::path& file)

@@ -37,7 +37,7 @@ double smallest_edge(const FloatGrid& grid) {
     return std::min({edges.x(), edges.y(), edges.z()});
 }
 
-/// How the voxels of a lattice lie among those of a grid.
+/// Converts between the voxel coordinates of a lattice and those of a grid.
 class Among {
   public:
     Among(const FloatGrid& grid, const openvdb::math::Transform& lattice)
@@ -54,10 +54,10 @@ class Among {
             to_grid_ = whole;
         from_grid_ = to_grid_.inverse();
     }
-    /// Whether each voxel of the lattice coincides with one of the grid.
+    /// Whether each voxel of the lattice coincides with a voxel of the grid.
     bool on_voxels() const { return on_voxels_; }
     openvdb::Vec3d to_grid(const openvdb::Vec3d& at) const { return to_grid_.transform(at); }
-    /// The voxels of the lattice around a box of the grid.
+    /// The box of lattice voxels that encloses a box of the grid.
     openvdb::CoordBBox from_grid(const openvdb::CoordBBox& box) const {
         openvdb::BBoxd bounds;
         for (int corner = 0; corner < 8; ++corner)
@@ -78,7 +78,7 @@ float sampled(const FloatGrid::ConstAccessor& reader, const openvdb::Vec3d& at) 
     return value;
 }
 
-/// Widths on both sides of the surface, scene units.
+/// The widths of a band on both sides of the surface, scene units.
 struct Widths {
     float outer, inner;
 
@@ -88,12 +88,12 @@ struct Widths {
 /// Creates the leaves of `tree` that may have distances within the band.
 void create_leaves(const FloatGrid& grid, const Among& among, const Widths& band, float voxel, FloatTree& tree) {
     const float farthest =
-        std::max(band.outer, band.inner) + 0.87f * float(Leaf::DIM) * voxel; // of the centre of a leaf
+        std::max(band.outer, band.inner) + 0.87f * float(Leaf::DIM) * voxel; // distance of the centre of such a leaf
     const auto reader = grid.getConstAccessor();
     FloatGrid::Accessor writer(tree);
     for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
         openvdb::CoordBBox around = leaf->getNodeBoundingBox();
-        around.expand(1); // its values are interpolated up to the next voxel
+        around.expand(1); // because values are interpolated up to the next voxel
         const openvdb::CoordBBox box = among.from_grid(around);
         const Coord low = box.min() & ~(int(Leaf::DIM) - 1);
         for (int x = low.x(); x <= box.max().x(); x += Leaf::DIM)
@@ -163,13 +163,13 @@ FloatGrid::Ptr voxelized(const FloatGrid::Ptr& grid, const openvdb::math::Transf
 struct Move {
     FloatGrid::Ptr grid;
     bool voxelize; ///< voxelize its surface again instead of interpolating its values
-    Widths band;   ///< of the distances that are correct afterwards
+    Widths band;   ///< in which distances are correct afterwards
 };
 
 Move plan_move(const FloatGrid::Ptr& grid, const openvdb::math::Transform& lattice) {
     const auto voxel = static_cast<float>(lattice.voxelSize().x()), own = static_cast<float>(grid->voxelSize().x());
     Widths band{grid->background(), inner_band_of({grid})};
-    // Values are interpolated from voxels up to √3 away; the last voxel of a band is never relied on.
+    // Values are interpolated from voxels up to √3 voxels away; the last voxel of a band is never relied on.
     const bool copied = Among(*grid, lattice).on_voxels();
     const float lost = copied ? 0.0f : 0.75f * own;
     band = {band.outer - lost, band.inner - lost};
@@ -181,7 +181,7 @@ Move plan_move(const FloatGrid::Ptr& grid, const openvdb::math::Transform& latti
     return {grid, false, band};
 }
 
-/// Limits the band.
+/// Makes the voxels outside the band inactive, with the constant value of their side.
 void trim(FloatGrid& grid, const Widths& band) {
     std::vector<Leaf*> leaves;
     grid.tree().getNodes(leaves);
@@ -205,9 +205,10 @@ openvdb::math::Transform::Ptr lattice_of(const VdbGrid& finest) {
     return lattice;
 }
 
-/// Estimates the memory of the grids that are interpolated, before any is made.
+/// Estimates the memory of the interpolated grids before any of them is made. \throw LimitError beyond `limit`, in
+/// bytes.
 void check_memory(const std::vector<Move>& moves, const Widths& band, double voxel, double limit) {
-    constexpr double bytes_per_voxel = 60.0; // with the bricks of its field
+    constexpr double bytes_per_voxel = 60.0; // including the bricks of the field
     double bytes = 0.0;
     for (const Move& move : moves)
         if (!move.voxelize)
@@ -225,7 +226,7 @@ void check_memory(const std::vector<Move>& moves, const Widths& band, double vox
 
 bool has_cubes(const VdbGrid& grid) {
     const Matrix map = matrix_of(grid.grid->transform());
-    const double size = smallest_edge(*grid.grid), tolerance = 1e-5 * size * size; // matrices may come from floats
+    const double size = smallest_edge(*grid.grid), tolerance = 1e-5 * size * size; // for matrices that come from floats
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) {
             double product = 0.0;

@@ -20,9 +20,10 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 
 constexpr int edge = 8;
 static_assert(Leaf::DIM == edge);
-constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // between voxels along x, y and z
+constexpr std::array<int, 3> strides{edge * edge, edge, 1}; // between neighbours along x, y and z
 
-/// Whether no neighbours in the leaf differ by more than `step`. A fast test that most leaves of most grids pass.
+/// Whether no neighbours in the leaf differ by more than `step`, where values below `deepest` count as `deepest`. Most
+/// leaves of most grids pass this fast test.
 bool is_smooth(const float* values, float step, float deepest) {
     int steps = 0;
     const auto count = [&](int v, int stride) {
@@ -39,8 +40,8 @@ bool is_smooth(const float* values, float step, float deepest) {
     return steps == 0;
 }
 
-/// The most negative value of an active voxel; inactive ones have minus the background. The inner band is not always as
-/// wide as the outer.
+/// The most negative value of an active voxel. Inactive voxels inside may have a lower value, minus the background,
+/// because the inner band is not always as wide as the outer one.
 float deepest_of(const std::vector<const Leaf*>& leaves) {
     std::vector<float> depths(leaves.size());
     parallel_for(leaves.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -136,7 +137,7 @@ int edge_at(const Reader& reader, const Coord& at) {
 }
 
 /// Whether any value in a square of size × size voxels, one voxel thick along `axis`, has the sign that `inside`
-/// excludes. The coordinates of `low` are multiples of the size.
+/// excludes. The coordinates of `low` along the square are multiples of `size`.
 bool changes_sign(const Reader& reader, const Coord& low, int axis, int size, bool inside) {
     const int part = edge_at(reader, low);
     if (part >= size)

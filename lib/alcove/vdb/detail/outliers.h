@@ -7,11 +7,11 @@
 
 namespace alcove {
 
-/// How much values change per unit of length near the zero isosurface: 1 for distances in scene units. The median over
-/// a few thousand voxels, which are cubes of edge `voxel`.
+/// How much values change per unit of length near the zero isosurface: 1 for distances in scene units. This is the
+/// median over a few thousand voxels, which must be cubes of edge `voxel`.
 double slope_of(const VdbGrid& grid, double voxel);
 
-/// The numbers of active voxels whose values are not distances.
+/// Counts active voxels whose values are not distances.
 struct Outliers {
     std::size_t count = 0; ///< inconsistent with their neighbours or the background
     std::size_t far = 0;   ///< among these, larger than the extent of the grid
@@ -37,10 +37,10 @@ Tiles simplify_tiles(const VdbGrid& grid);
 /// is compared with 0.
 ///
 /// Level sets of spheres have no outliers, nor do level sets that were filtered, offset, combined or saved as half
-/// floats. Those that OpenVDB creates from some closed meshes have up to 8 outliers, those from open meshes more. On a
-/// plane, errors below 0.72 voxel are not detected, nor are errors below 1.15 voxels in values that are 2 voxels or
-/// more from 0; in tips and gaps narrower than the band, larger errors are missed too. Thread-safe; uses the threads of
-/// parallel_for. Cost: an eighth of read_grids().
+/// floats. Level sets that OpenVDB creates from closed meshes may have up to 8 outliers, those from open meshes more.
+/// On a plane, errors below 0.72 voxel are not detected, nor are errors below 1.15 voxels in values that are 2 voxels
+/// or more from 0; in tips and gaps narrower than the band, larger errors are missed too. Thread-safe; uses the threads
+/// of parallel_for. Cost: an eighth of read_grids().
 Outliers outliers_of(const VdbGrid& grid, double voxel);
 
 }

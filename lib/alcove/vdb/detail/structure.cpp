@@ -30,7 +30,7 @@ std::uint32_t bytes_of_type(const std::string& type, std::uint32_t declared) {
 }
 
 constexpr std::int64_t magic = 0x56444220;    // " BDV"
-constexpr std::uint32_t oldest_version = 222; // of files with a UUID and compression per grid, since 2013
+constexpr std::uint32_t oldest_version = 222; // with a UUID and a compression per grid, since 2013
 
 /// The sizes in the header of a Blosc chunk: unpacked, and as stored with the header.
 struct BloscSizes {
@@ -76,9 +76,9 @@ void check_delayed_loading(ForwardReader& file, std::uint32_t size) {
     file.expect_at(static_cast<std::int64_t>(end));
 }
 
-/// Facts from the metadata of a grid.
+/// What the metadata of a grid says.
 struct Facts {
-    bool halved = false; ///< whether it stores its values as half floats
+    bool halved = false; ///< whether the grid stores its values as half floats
     std::string grid_class = "unknown";
     std::optional<std::int64_t> active_voxels{};
     std::vector<double> stack{}; ///< see GridEntry
@@ -153,7 +153,7 @@ void check_values(ForwardReader& file, std::size_t count, std::size_t active, st
     }
     // 0 or negative if the values are not compressed.
     const auto declared = file.number<std::int64_t>();
-    // Negated as unsigned, because the least number has no negative.
+    // Negated as an unsigned number, because the negative of the smallest signed number is out of range.
     const auto size = declared <= 0 ? 0 - static_cast<std::uint64_t>(declared) : static_cast<std::uint64_t>(declared);
     file.check(size);
     if (declared <= 0) {
@@ -192,7 +192,8 @@ bool disjoint(const Mask& a, const Mask& b) {
     return true;
 }
 
-/// The masks of active voxels of a tree's leaves, to compare them, and the memory of the tree in bytes.
+/// The masks of active voxels of all leaves of a tree, for comparison with their second copies, and the memory of the
+/// tree in bytes.
 struct TreeSize {
     std::vector<std::uint64_t> leaves;
     std::size_t bytes = 0;
@@ -278,7 +279,7 @@ void check_scale(ForwardReader& file) {
             file.fail("contains an inconsistent transform");
 }
 
-/// \return whether the transform is linear; the other kind is a frustum.
+/// Checks a transform. \return whether it is linear; the other kind is a frustum.
 bool check_transform(ForwardReader& file) {
     constexpr std::uint64_t vector = 3 * sizeof(double), matrix = 16 * sizeof(double);
     const std::string type = file.text();
@@ -311,7 +312,8 @@ std::string shown(const std::string& unique_name) {
                                    : fmt::format("{}[{}]", unique_name.substr(0, at), unique_name.substr(at + 1));
 }
 
-/// "Tree_float_5_4_3_HalfFloat" without the text around the type of the values, unless the tree has other levels.
+/// The type of the values, from the type name of a tree: "float" from "Tree_float_5_4_3_HalfFloat". The result includes
+/// the levels of the tree if they are not 5, 4 and 3.
 std::string value_type(std::string type) {
     for (const std::string_view end : {"_HalfFloat", "_5_4_3"})
         if (type.ends_with(end))
