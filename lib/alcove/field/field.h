@@ -1,8 +1,8 @@
 /// A field is anything with `map(p)`, the signed distance from p to the surface.
 ///
-/// Distances and points share one unit (unit space for fields of meshes, see types.h). Where a field does not know
-/// the true distance it may return less (a *bound*), but it must not exceed the true distance by more than its own
-/// resolution: tracing and estimators rely on that. `const` use is safe from any number of threads.
+/// Distances and points share one unit (unit space for fields of meshes, see types.h). Where a field does not know the
+/// true distance, it may return less (a *bound*). The result must never exceed the true distance by more than the
+/// resolution of the field: tracing and estimators rely on this. `const` use is safe from any number of threads.
 #pragma once
 
 #include "alcove/base/types.h"
@@ -31,14 +31,14 @@ concept Field = requires(const F& field, Vec3 p) {
     { field.map(p) } -> std::convertible_to<float>;
 };
 
-/// A field with a batched form. `reach` is an upper bound of the distances that the caller needs, such as the
-/// height of a probe above the surface: the field may use data that is correct only up to that distance.
+/// A field with a batched form. `reach` is an upper bound on the distances that the caller needs, such as the height of
+/// a probe above the surface. The field may use data that is correct only up to that distance.
 template <class F>
 concept BatchedField = Field<F> && requires(const F& field, Points points, float reach, float* distances) {
     field.map(points, reach, distances);
 };
 
-/// distances[i] = field.map(points[i]), using the batched form if there is one. Cost: `count` map() calls.
+/// distances[i] = field.map(points[i]), with the batched form if there is one. Cost: `count` map() calls.
 template <Field F>
 void map_batch(const F& field, const Points& points, float reach, float* distances) {
     if constexpr (BatchedField<F>) {
@@ -60,8 +60,8 @@ float resolution(const F& field) {
         return 0.0f;
 }
 
-/// An upper bound of the distance of the surface from the origin: a ray that starts on the surface hits it within twice
-/// this length or never. Infinite for fields that do not know it.
+/// An upper bound on the distance of the surface from the origin: a ray that starts on the surface hits the surface
+/// again within twice this length, or never. Infinite for fields without such a bound.
 template <Field F>
 float extent(const F& field) {
     if constexpr (requires {
@@ -72,7 +72,8 @@ float extent(const F& field) {
         return std::numeric_limits<float>::infinity();
 }
 
-/// Whether both sides of the surface count as outside, with negative values only in a thin layer along it (Sign::sheet).
+/// Whether both sides of the surface count as outside, with negative values only in a thin layer along the surface
+/// (Sign::sheet).
 template <Field F>
 bool two_sided(const F& field) {
     if constexpr (requires {
@@ -84,7 +85,7 @@ bool two_sided(const F& field) {
 }
 
 /// A type-erased field, for choices made at run time. Costs one virtual call per batch, not per point. Owns a copy of a
-/// field; copies of an AnyField share it. Models BatchedField.
+/// field, which the copies of an AnyField share. Models BatchedField.
 class AnyField {
   public:
     template <class F>

@@ -62,8 +62,8 @@ float LevelStack::map(const Vec3& p) const {
         return distance;
     if (const float outside = levels_->front().bounds().map(p); outside >= reach())
         return outside;
-    // A distance beyond the band of a finer level is at least the end of that band; behind a sheet the coarser
-    // level may return a smaller distance.
+    // A distance beyond the band of a finer level is at least the width of that band, but behind a sheet the coarser
+    // level may return less.
     for (std::size_t level = 1; level < levels_->size(); ++level) {
         const float coarser = (*levels_)[level].map(p);
         distance = distance > 0.0f ? std::max(coarser, nearest) : std::min(coarser, -nearest);
@@ -116,7 +116,7 @@ void LevelStack::refine(const Points& points, float* distances) const {
 void LevelStack::escalate(const Points& points, float* distances) const {
     sample_bricks(levels_->front().view(), points, distances);
     std::array<float, block> x, y, z, values;
-    std::array<std::uint16_t, block> far; // points beyond the band of the previous level
+    std::array<std::uint16_t, block> far; // indices of points beyond the band of the previous level
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.count; ++i)
         if (cut(distances[i], levels_->front().usable())) {

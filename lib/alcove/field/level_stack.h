@@ -1,4 +1,4 @@
-/// The field of a grid stack: each distance comes from the finest level that has it.
+/// The field of a grid stack: each distance comes from the finest level whose band contains it.
 #pragma once
 
 #include "alcove/field/field.h"
@@ -9,14 +9,14 @@
 
 namespace alcove {
 
-class Bricks; // one level in the layout of the sampler (field/detail/bricks.h)
+class Bricks; // one level, in a layout for fast sampling (field/detail/bricks.h)
 
-/// Distances in unit space, interpolated trilinearly on the finest level whose band contains them: if a coarser level
-/// has the distance, saturated values and the last voxel of a band are never used. Beyond the last band the result is a
+/// Distances in unit space, interpolated trilinearly on the finest level whose band contains them. Saturated values and
+/// the last voxel of a band are used only if no coarser level has the distance. Beyond the last band the result is a
 /// lower bound: the end of that band, or the distance to the bounding box of the surface. The same applies inside if
-/// GridStack::knows_inside(); otherwise the inside is limited by the end of the finest band. A probe that is known to
-/// be within `reach` of the surface samples only one level, whose voxel is at most half of `reach`. Partial levels
-/// replace the distances in their bands.
+/// GridStack::knows_inside(); otherwise, distances inside reach only to the end of the finest band. If the caller needs
+/// distances only up to `reach`, a single level is sampled, either the finest or one whose voxel is at most half of
+/// `reach`. Partial levels replace the distances in their bands.
 ///
 /// Copies share the bricks; const use is thread-safe. Models BatchedField.
 class LevelStack {
@@ -32,14 +32,14 @@ class LevelStack {
     /// Whether the stack is a sheet.
     bool two_sided() const { return two_sided_; }
     float extent() const;
-    /// Largest distance that is not just a bound.
+    /// The largest distance that is not just a bound.
     float reach() const;
     const std::vector<Bricks>& levels() const { return *levels_; }
     std::size_t bytes() const;
 
   private:
     std::size_t level_for(float reach) const;
-    /// Whether a value of a level is saturated at the end of its band.
+    /// Whether a distance on a level is cut off at the end of the band.
     bool cut(float distance, float usable) const {
         return distance >= usable || (knows_inside_ && distance <= -usable);
     }

@@ -40,7 +40,7 @@ struct Cuboid {
     }
 };
 
-/// A torus around the y axis through its centre.
+/// A torus whose axis is parallel to the y axis.
 struct Torus {
     Vec3 center{0.0f};
     float ring_radius = 1.0f;
@@ -67,10 +67,11 @@ struct Capsule {
     }
 };
 
-/// Number of points that batched combinations process at a time: small enough that their copies stay in the L1 cache.
+/// The number of points that batched combinations process at a time, small enough that the intermediate arrays stay in
+/// the L1 cache.
 inline constexpr std::size_t combine_block = 256;
 
-/// Base class of unions; `Self` provides `for_each_part(visit)`, which visits its parts.
+/// Base class of unions. `Self` provides `for_each_part(visit)`, which calls `visit(part)` for each part.
 ///
 /// If no part is two-sided, the result is the smallest distance. Otherwise it is the distance nearest to 0, where the
 /// inside of the solid parts counts as 0. The reasons: the sign of a sheet says nothing about other parts, the depth
@@ -142,7 +143,7 @@ struct Union : UnionBase<Union<Parts...>> {
     }
 };
 
-/// The union of parts of one type, whose number is known at run time. An empty union has no surface.
+/// The union of any number of parts of one type. An empty union has no surface.
 template <Field F>
 struct UnionOf : UnionBase<UnionOf<F>> {
     std::vector<F> parts;

@@ -1,4 +1,4 @@
-/// Union and difference of solids with optionally rounded seams. Cost: one map() of every part.
+/// Union and difference of solids with optionally rounded seams. Cost: one map() call per part.
 ///
 /// The results are bounds, with and without rounding: they have Lipschitz constant 1 and never exceed the distance
 /// to the surface that they describe. This requires that the distances of every part are correct within the blend
@@ -11,8 +11,9 @@
 
 namespace alcove {
 
-/// The quadratic smooth minimum of two distances (Quilez 2013). It fills the seam where they differ by less
-/// than `width`: by a quarter of `width` where they are equal, and up to `width` away from a right-angled edge.
+/// The quadratic smooth minimum of two distances (Quilez 2013). It fills the seam where the distances differ by less
+/// than `width`. Where they are equal, it lowers them by a quarter of `width`; at a right-angled edge, the filling
+/// begins `width` away from the edge.
 inline float smooth_min(float a, float b, float width) {
     const float overlap = width - std::fabs(a - b);
     return std::min(a, b) - (overlap > 0.0f ? overlap * overlap / (4.0f * width) : 0.0f);
@@ -22,7 +23,7 @@ inline float smooth_min(float a, float b, float width) {
 template <class Self, Field F>
 struct Folded {
     std::vector<F> parts;     ///< at least one; all solids, that is, not two_sided()
-    float blend_width = 0.0f; ///< of the seams, >= 0
+    float blend_width = 0.0f; ///< width of the seams, ≥ 0
 
     Folded(std::vector<F> fields, float width) : parts(std::move(fields)), blend_width(width) {
         assert(!parts.empty() && width >= 0.0f);

@@ -15,7 +15,7 @@ using openvdb::Coord;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr int cells = BrickView::cells, samples = BrickView::samples;
 static_assert(Leaf::DIM == cells);
-constexpr float unknown = 1e18f; // finite, so that interpolation between two of them is finite
+constexpr float unknown = 1e18f; // finite, so that interpolation between two such values is, too
 
 /// Fills the samples of a brick from its leaf and the first layers of seven neighbours.
 void fill_brick(const openvdb::FloatGrid::ConstAccessor& grid, const Coord& origin, float value_scale, float* brick) {
@@ -53,8 +53,8 @@ Bricks::Bricks(const LevelSet& level, float value_scale, Extent extent)
         bounds_.half_extent[axis] = static_cast<float>(0.5 * (high - low) * level.voxel);
     }
 
-    // A brick samples the leaf at its origin and the next ones along each axis. A border of one brick surrounds them
-    // all.
+    // A brick samples the leaf at its origin and the next leaves along the axes. A border of one brick surrounds all
+    // bricks.
     const Coord low = box.min().offsetBy(-2 * cells);
     std::size_t count = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -141,7 +141,7 @@ float Bricks::map(const Vec3& p) const {
     const std::int32_t first =
         index_[slot] + ((cell[0] % cells) * samples + cell[1] % cells) * samples + cell[2] % cells;
     const float* corner = bricks_.data() + first;
-    const auto mix = [](float a, float b, float s) { return a + (b - a) * s; }; // std::lerp() has branches
+    const auto mix = [](float a, float b, float s) { return a + (b - a) * s; }; // unlike std::lerp(), without branches
     const auto along_z = [&](int at) { return mix(corner[at], corner[at + 1], t[2]); };
     const float near = mix(along_z(0), along_z(samples), t[1]);
     const float far = mix(along_z(samples * samples), along_z(samples * samples + samples), t[1]);

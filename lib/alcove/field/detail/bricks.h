@@ -20,7 +20,7 @@ struct BrickView {
     static constexpr int samples = cells + 1; ///< per side of a brick
     static constexpr int stride = 736;        ///< floats from one brick to the next: 9³ plus padding
 
-    const std::int32_t* index; ///< position of each brick in `bricks`, x slowest
+    const std::int32_t* index; ///< index of each brick in `bricks`; x varies slowest
     const float* bricks;
     std::int32_t size[3]; ///< bricks along each axis
     float scale;          ///< samples per unit of length
@@ -30,7 +30,7 @@ struct BrickView {
 /// The bricks of one level. Const use is thread-safe; copies share nothing.
 class Bricks {
   public:
-    /// `partial` levels have values only where their leaves are; elsewhere, distances are huge.
+    /// A `partial` level has distances only where its leaves are; elsewhere, its values are huge.
     enum class Extent { whole, partial };
 
     /// Reads the OpenVDB grid of a level; `value_scale` converts its values to unit space.
@@ -41,15 +41,15 @@ class Bricks {
     float voxel() const { return voxel_; }
     /// Centre of the voxel of index (0, 0, 0).
     const Vec3& origin() const { return origin_; }
-    /// Distances below this are correct; above, interpolation includes saturated values beyond the band.
+    /// Distances below this limit are correct. Above it, interpolation includes saturated values from beyond the band.
     float usable() const { return usable_; }
-    /// The same limit for the size of negative distances, behind the surface.
+    /// The same limit for the magnitudes of negative distances, behind the surface.
     float usable_inside() const { return usable_inside_; }
-    /// A box around the surface, larger than the surface by at most the band and a brick.
+    /// A box around the surface. Its sides are at most the band plus a brick away from the surface.
     const Cuboid& bounds() const { return bounds_; }
     std::size_t bytes() const { return (index_.size() + bricks_.size()) * sizeof(float); }
 
-    /// Scalar version of sample_bricks(), also the reference for its tests.
+    /// The scalar version of sample_bricks(), and the reference for its tests.
     float map(const Vec3& p) const;
 
   private:

@@ -14,7 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int samples = BrickView::samples;
 
-/// Splits one coordinate into the index of the sample below and the fraction past it.
+/// Splits one coordinate into the index of the sample below it and the fraction beyond that sample.
 template <class D, class V = hn::Vec<D>, class I = hn::Vec<hn::RebindToSigned<D>>>
 HWY_INLINE void locate(D d, V p, float scale, float offset, std::int32_t bricks, I& cell, V& t) {
     const V last = hn::Set(d, static_cast<float>(bricks * BrickView::cells - 1));

@@ -1,4 +1,4 @@
-/// Sphere tracing: marches rays through a field in steps of its distances (Hart 1996).
+/// Sphere tracing: marches rays through a field in steps as long as the distances that it returns (Hart 1996).
 #pragma once
 
 #include "alcove/field/field.h"
@@ -12,26 +12,26 @@ namespace alcove {
 
 struct TraceOptions {
     float far = 1.0f;           ///< distance along the ray beyond which the ray is a miss; may be infinite
-    float hit_distance = 1e-4f; ///< a ray hits where map() is less than this
+    float hit_distance = 1e-4f; ///< a ray hits the surface where map() is less than this
     float shortest_step = 1e-4f;
     int max_steps = 1024; ///< a ray without a hit after this many steps is a miss
     /// Over-relaxation (Keinert et al. 2014): steps are this factor times the distance, in [1, 2). A step
     /// longer than the sum of the distances at its ends is undone, and the ray continues with a factor of 1.
     float relaxation = 1.0f;
-    /// Set for fields that are two_sided(): the negative side counts as outside too, and the sign may jump where there
-    /// is no surface. A ray hits where the absolute distance is small, or where the sign changes and the step was long
-    /// enough to have crossed the surface.
+    /// Whether the field is two_sided(): the negative side counts as outside too, and the sign may jump where there is
+    /// no surface. A ray then hits where the absolute distance is below `hit_distance`, or where the sign changes after
+    /// a step that was long enough to cross the surface.
     bool two_sided = false;
 };
 
-/// Rays in arrays that are marched together: each step is one batched map().
+/// Rays in arrays, which are marched together: each step is one batched map() call.
 struct RayBatch {
     static constexpr std::size_t capacity = 256;
     using Values = std::array<float, capacity>;
 
     Values x, y, z;    ///< origins
     Values dx, dy, dz; ///< unit directions
-    Values travelled;  ///< in: the start along the ray; out: the hit, or a value of at least `far`
+    Values travelled;  ///< in: where the ray starts; out: where it hits, or at least `far`
     std::array<bool, capacity> hit;
     std::array<std::uint16_t, capacity> steps; ///< map() calls spent on each ray
     std::size_t count = 0;
