@@ -25,15 +25,15 @@
 namespace alcove {
 namespace {
 
-/// A mesh and the data that all its targets share.
+/// A mesh and the data that all bake targets on it share.
 struct PreparedMesh {
-    Mesh of_selection;               ///< the faces that are baked or occlude; set if there is a selection
-    const Mesh* whole;               ///< used if there is no selection
-    std::vector<Triangle> triangles; ///< those that occlude
+    Mesh of_selection;               ///< has only faces that are baked or occlude; set if there is a selection
+    const Mesh* whole;               ///< the mesh with all its faces
+    std::vector<Triangle> triangles; ///< of the faces that occlude
     Frame frame;
     VoxelizeOptions voxelizing;
     float radius;
-    std::optional<GridStack> grid{}; ///< the given grid, moved to the mesh's frame and extended to the radius
+    std::optional<GridStack> grid{}; ///< BakeOptions::grid, moved to the mesh's frame and extended to the radius
     std::optional<SelectedFaces> selected{};
 
     const Mesh& mesh() const { return selected ? of_selection : *whole; }
@@ -43,7 +43,7 @@ std::string named(const Mesh& mesh, const std::string& message) {
     return mesh.name.empty() || message.starts_with(mesh.name) ? message : mesh.name + ": " + message;
 }
 
-/// Newell's method (Tampieri 1992), which also works for non-planar polygons.
+/// Computed by Newell's method (Tampieri 1992), which also works for non-planar polygons.
 Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
     const std::span<const std::uint32_t> corners = mesh.face(face);
     Vec3d sum(0.0);
@@ -53,8 +53,8 @@ Vec3 face_normal(const Mesh& mesh, std::uint32_t face) {
     return unit_or_zero(sum);
 }
 
-/// Detects a grid that belongs to another mesh, or to this mesh at another position: many vertices are then far from
-/// the surface of the grid.
+/// Detects a grid that belongs to another mesh, or to this mesh at another position. In both cases, many vertices are
+/// far from the surface of the grid.
 void check_distance(GridStack grid, const PreparedMesh& prepared, std::vector<std::string>& warnings) {
     grid.levels.resize(1);
     const LevelStack field(grid);
@@ -102,7 +102,7 @@ bool has_area(const PreparedMesh& prepared) {
     });
 }
 
-/// The triangles of those faces of `mesh` that occlude.
+/// The triangles of the faces of `mesh` that occlude.
 std::vector<Triangle> occluding_triangles(const Mesh& mesh, const PreparedMesh& prepared) {
     std::vector<Triangle> triangles = triangulate(mesh).triangles;
     if (!prepared.selected)
@@ -126,7 +126,7 @@ PreparedMesh prepare(const Mesh& mesh, const BakeOptions& options, std::vector<s
     prepared.frame = frame_of(prepared.mesh().box());
     if (prepared.triangles.empty() && !options.faces.no_occlude.empty())
         throw InputError("--no-occlude and --opaque-only leave no face that occludes: name fewer parts");
-    if (!has_area(prepared)) // voxelize() detects this too, but rays do not
+    if (!has_area(prepared)) // voxelize() detects this too, but not every bake voxelizes
         throw InputError("the mesh has no face with nonzero area: there is no surface to occlude anything");
     prepared.voxelizing = voxelizing_of(options, prepared.frame);
     prepared.radius = radius_of(options, prepared.frame, prepared.voxelizing);
@@ -161,7 +161,7 @@ std::vector<Surfel> surfels_of_vertices(const PreparedMesh& prepared, NormalSour
 }
 
 std::vector<Surfel> surfels_of_points(const PreparedMesh& prepared, const SurfacePoints& points) {
-    const Mesh& mesh = *prepared.whole; // the mesh whose faces the points refer to
+    const Mesh& mesh = *prepared.whole; // because points refer to its faces
     std::vector<Surfel> surfels = huge_vector<Surfel>(points.count, {Vec3(0.0f), Vec3(0.0f)});
     parallel_for(points.count, 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -201,12 +201,12 @@ Baked to_baked(TargetResult result, const BakeTask& task, const PreparedMesh& pr
     return baked;
 }
 
-/// The surfels that bake_surfels() bakes on a mesh.
+/// Describes the surfels that bake_surfels() bakes on a mesh.
 struct SurfelSource {
     std::string_view name; ///< name of the surfels in warnings
     bool of_vertices;
     bool by_parts;
-    bool is_reconstructed; ///< the mesh is the surface of points
+    bool is_reconstructed; ///< whether the mesh was made from points
     std::function<std::vector<Surfel>(const PreparedMesh&)> surfels;
     IsOwnFace is_own_face;
     std::function<std::vector<Surfel>(const PreparedMesh&, std::span<const float> ao)> more{}; ///< see BakeTarget
@@ -269,11 +269,11 @@ Baked bake_vertices(const Mesh& mesh, const BakeOptions& options) {
                          .is_own_face = uses_vertex});
 }
 
-/// Bakes the mesh with its vertices joined, and gives each original vertex the values of the vertex that it became.
+/// Bakes the mesh after joining its vertices, and gives each original vertex the values of the vertex that it became.
 Baked bake_joined(Mesh mesh, const BakeOptions& options) {
     check(options);
     if (options.normals == NormalSource::angle || options.normals == NormalSource::area)
-        mesh.normals.clear(); // unused, but vertices with different normals would not be joined
+        mesh.normals.clear(); // not used, and they would keep joined vertices separate
     mesh.warnings.clear();
     const JoinedMesh joined = join_vertices(mesh, *options.weld);
     Baked baked = bake_vertices(joined.mesh, options);
@@ -390,7 +390,7 @@ std::vector<Color> multiplied(const Mesh& mesh, const std::vector<float>& ao) {
     return colors;
 }
 
-/// Warns if viewers will show colours other than the ao.
+/// Warns if viewers will show colours that are not this ao.
 void warn_of_kept_colors(Mesh& mesh, const std::vector<float>& ao, ColorUse use) {
     const std::vector<Color>& colors = mesh.vertex_colors;
     if (ao.empty() || colors == grey_colors(ao) || colors == grey_colors(ao, ColorEncoding::raw))
@@ -446,7 +446,7 @@ bool add(Mesh& mesh, const Baked& baked, const AddOptions& options) {
             throw InputError(fmt::format("{} values of {} were baked, but the mesh has {} vertices",
                                          values.size() / channel.components, channel.name, mesh.vertex_count()));
     const bool colored = wants_colors(options.color, baked, mesh);
-    // The `quality` of an earlier bake is out of date.
+    // Replace the `quality` of an earlier bake, which would be out of date.
     const bool rated =
         colored || (!baked.ao().empty() && has_property(mesh, "quality") && names_value(earlier_bake(mesh), "quality"));
     if (colored && options.color == ColorUse::multiply && !mesh.vertex_colors.empty() && !earlier_bake(mesh).empty())

@@ -26,25 +26,27 @@
 
 namespace alcove {
 
-/// The largest RMSE of the baked ao against the reference, exact rays: 0.05, 0.02 or 0.005.
+/// The largest RMSE of the baked ao against exact rays, the reference: 0.05, 0.02 or 0.005.
 enum class Quality { draft, good, fine };
 double rmse_of(Quality quality);
 
 /// The methods that the planner may choose.
 enum class Via {
-    grid, ///< calibrated or guided, on the field; exact if they cost far more, do not fit in memory or miss the error
+    /// Calibrated or guided, on the field. Exact if the field costs far more, cannot meet the error, is too coarse for
+    /// the radius, or does not fit in memory.
+    grid,
     automatic, ///< the cheapest of calibrated, guided and exact
     mesh,      ///< exact rays on the triangles
 };
 
-/// Receives the current work ("voxelizing", "baking") and the share of it that is done, in [0, 1]. The share restarts
-/// if the planner bakes again. Never called from two threads at once. An exception that it throws ends the bake;
-/// Cancellable ends it sooner.
+/// Receives the current work ("voxelizing", "baking") and the share of this work that is done, in [0, 1]. The share
+/// restarts if the planner bakes again. Never called by two threads at once. An exception thrown by this function ends
+/// the bake; Cancellable ends it sooner.
 using BakeProgress = std::function<void(std::string_view work, double done)>;
 
 /// Selects faces by the names of their FaceGroups. In a name, * stands for any text and ? for any one character.
 struct FaceSelection {
-    std::vector<std::string> only{};       ///< bake these alone; all others still occlude
+    std::vector<std::string> only{};       ///< bake only these; all other faces still occlude
     std::vector<std::string> exclude{};    ///< neither bake these nor let them occlude
     std::vector<std::string> no_occlude{}; ///< do not let these occlude
     bool opaque_only = false;              ///< do not let masked or blended faces occlude
@@ -61,13 +63,13 @@ struct BakeOptions {
     /// The RMSE to meet, in [0.001, 1), instead of that of `quality`.
     std::optional<double> error{};
     /// A method of the catalog; if empty, the planner chooses one. Without `error`, the method runs with its defaults
-    /// and `parameters`; with `error`, its number of rays or samples is chosen to meet it. On meshes with few
-    /// vertices, guided, traced and the methods that the planner chooses cast more rays, up to 4,096 per vertex. If the
-    /// voxel is larger than half the radius, guided casts at least 32, because the field does not help then.
+    /// and `parameters`; with `error`, the number of its rays or samples is chosen to meet the error. On meshes with
+    /// few vertices, guided, traced and the methods that the planner chooses cast more rays, up to 4,096 per vertex. If
+    /// the voxel is larger than half the radius, guided casts at least 32 rays, because the field does not help then.
     std::string method{};
     /// Parameters of `method` by their names in the catalog.
     std::vector<std::pair<std::string, double>> parameters{};
-    std::uint32_t seed = 0; ///< for the ray directions
+    std::uint32_t seed = 0; ///< of the ray directions
 
     FaceSelection faces{};         ///< by default all; vertices without a baked face get ChannelInfo::missing
     std::vector<Mesh> occluders{}; ///< meshes that also occlude, in the same coordinates
@@ -78,21 +80,21 @@ struct BakeOptions {
     ChannelSet attributes = Channel::ao;
     NormalSource normals = NormalSource::automatic;
     SignChoice sign = SignChoice::automatic;
-    /// Joins vertices within this distance of each other before the bake; finite and not in voxels. Closes gaps caused
-    /// by an exporter's rounding. Each vertex gets the values of the vertex that it was joined into.
+    /// Joins vertices within this distance of each other before the bake; finite and not in voxels. This closes gaps
+    /// that rounding in an exporter has caused. Each vertex gets the values of the vertex that represents it.
     std::optional<Length> weld{};
     /// The distance between the points of a mesh without faces: see PointOptions::point_size.
     std::optional<Length> point_size{};
     std::optional<Length> voxel{};   ///< edge of the finest voxel, finite, not in voxels; empty: automatic
-    const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing it
-    /// Return the level sets in Baked::grid. They are then built from all triangles, even if no method needs them.
+    const GridStack* grid = nullptr; ///< level sets of the mesh, used instead of voxelizing the mesh
+    /// Return the level sets in Baked::grid. They are then built even if no method needs them, and from all triangles.
     bool keep_grid = false;
 
     /// Measure the error of the bake with reference rays, and fit `calibrated` to some of them. A planned bake needs
     /// this.
     bool pilot = true;
-    /// Limit of the wall-clock seconds since the call, > 0. A bake whose estimate clearly exceeds this is refused; a
-    /// running bake is not stopped.
+    /// Limit of the wall-clock seconds since the call, > 0. A bake is refused if its estimated time clearly exceeds the
+    /// limit; a running bake is not stopped.
     std::optional<double> time_limit{};
     BakeProgress progress{};
     unsigned threads = 0; ///< 0: one per core
@@ -127,10 +129,11 @@ struct Baked {
 
     std::string method;         ///< including its number of rays or samples: "guided:3"
     std::optional<int> samples; ///< rays or samples per vertex or point; empty if the method has neither
-    /// The share of the vertices or points at which the method was evaluated; the others were interpolated. Less than 1
-    /// only if there is an RMSE to meet and the points are much denser than the detail of the ao.
+    /// The share of the vertices or points at which the method was evaluated; the values of the others were
+    /// interpolated. Less than 1 only if there is an RMSE to meet and the points are much denser than the details of
+    /// the ao.
     double evaluated = 1.0;
-    std::string reason;           ///< why exact was planned despite Via::grid; empty otherwise
+    std::string reason;           ///< why the planner chose exact despite Via::grid; otherwise empty
     std::optional<double> rmse;   ///< of ao, estimated by the pilot; empty without a pilot
     std::optional<double> target; ///< the RMSE to meet; empty for a method with its defaults
     double radius = 0.0;          ///< scene units; may be infinite
@@ -147,21 +150,21 @@ struct Baked {
 };
 
 /// Checks options without a mesh. \throw InputError if options contradict each other or are out of range; the message
-/// is one line that names them.
+/// is one line that names these options.
 void check(const BakeOptions& options);
 
 /// Bakes the vertices of a mesh. Vertices of a mesh without faces are baked as points on the surface that
 /// surface_of_points() reconstructs. The values do not depend on the number of threads. Warnings and messages use the
 /// option names of the command line: --radius is BakeOptions::radius.
 ///
-/// Thread-safety: concurrent calls must have the same `threads`, since that limit applies to the whole process, and
-/// should not have a `time_limit`, since it is checked with the CPU time of the whole process.
+/// Thread-safety: concurrent calls must have the same `threads`, because this limit applies to the whole process. They
+/// should have no `time_limit`, because it is checked with the CPU time of the whole process.
 /// Cost: at quality good, from 1 µs per vertex on dense scans to about 5 µs on small meshes, plus 50 to 100 ms for the
 /// pilot.
-/// \throw InputError like check(). Also if no face has an area, if the mesh lacks the normals that NormalSource::file
-/// requires, or if most vertices are more than two voxels off the surface of BakeOptions::grid. LimitError if the grids
-/// exceed half of the memory, MemoryError if the system runs out of memory. TimeLimitError, see
-/// BakeOptions::time_limit. Any exception of BakeOptions::progress.
+/// \throw InputError like check(). Also if no face has a nonzero area, if the mesh lacks the normals that
+/// NormalSource::file requires, or if most vertices are more than two voxels off the surface of BakeOptions::grid.
+/// LimitError if the grids exceed the memory limit (by default half of the memory), MemoryError if the system runs out
+/// of memory. TimeLimitError, see BakeOptions::time_limit. Any exception of BakeOptions::progress.
 Baked bake(const Mesh& mesh, const BakeOptions& options = {});
 
 inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
@@ -170,8 +173,8 @@ inline constexpr std::uint32_t no_face = ~std::uint32_t{0};
 struct SurfacePoint {
     Vec3d position{0.0}; ///< scene units
     Vec3 normal{0.0f};   ///< any length; zero: the normal of the face
-    /// Index of the face that the point lies on. Without it, the faces that the point touches count as its own if their
-    /// normals are within 60° of `normal`.
+    /// Index of the face on which the point lies. Without this index, a face that the point touches counts as its own
+    /// if the normal of the face is within 60° of `normal`.
     std::uint32_t face = no_face;
 };
 
@@ -181,10 +184,11 @@ struct SurfacePoint {
 Baked bake(const Mesh& mesh, std::span<const SurfacePoint> points, const BakeOptions& options = {});
 
 /// Splits faces where interpolating ao between vertices would be off by more than `error` (or the RMSE of `quality`),
-/// so that vertex values can represent ao: a floor of one quad under a box gets the shadow of the box. An edge is not
-/// split if it is at most 1/16 of the radius, or 1/64 of the diagonal if the radius exceeds a quarter of the diagonal.
-/// The result has at most a million faces or four times as many as the mesh, whichever is more. All data of the mesh
-/// are interpolated as in tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have no effect.
+/// so that vertex values can represent ao. For example, a floor that is a single quad gets the shadow of a box on it.
+/// An edge is not split if it is at most 1/16 of the radius, or 1/64 of the diagonal if the radius exceeds a quarter of
+/// the diagonal. The result has at most a million faces or four times as many as the mesh, whichever is more. The data
+/// of the mesh are interpolated as in tessellate(). `method`, `via`, `self`, `weld`, `progress` and `time_limit` have
+/// no effect.
 ///
 /// Cost: 256 exact rays per vertex and per tested point. Thread-safety as bake(). \throw InputError and LimitError
 /// as bake() and tessellate().
@@ -194,7 +198,7 @@ Mesh tessellate_for_ao(const Mesh& mesh, const BakeOptions& options = {});
 enum class ColorUse {
     automatic, ///< adds vertex colours and `quality`, unless the mesh already has colours or its own `quality`
     ao,        ///< adds both, and replaces those of the mesh
-    multiply,  ///< adds both, with the colours of the mesh multiplied by ao
+    multiply,  ///< adds both; the colours are those of the mesh, multiplied by ao
     none,      ///< adds neither
 };
 struct AddOptions {
@@ -204,7 +208,7 @@ struct AddOptions {
 
 /// Adds the baked values to `mesh` as vertex attributes named after their channels, and a comment with the method and
 /// its settings. The channel `ao` is also added as colours and as `quality` (see ColorUse). Adds a warning to `mesh` if
-/// it keeps colours of its own. \return whether colours were added.
+/// the mesh keeps colours that do not show this ao. \return whether colours were added.
 /// \throw InputError if the numbers of values and vertices do not match. Cost: linear.
 bool add(Mesh& mesh, const Baked& baked, const AddOptions& options = {});
 

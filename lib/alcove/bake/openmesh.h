@@ -8,8 +8,8 @@
 /// OpenMesh represents only manifolds. Its readers duplicate the vertices of non-manifold faces and drop faces with a
 /// repeated vertex, so the baked mesh differs from the file. Use read_mesh() of mesh/files.h for such files, as
 /// examples/bake_openmesh.cpp does. OpenMesh's readers also round coordinates to float, read an OFF file with comments
-/// as empty, and triangulate polygons for a TriMesh as fans, which is wrong for concave ones. The values equal those
-/// of `alcove bake` if to_mesh() equals the mesh that read_mesh() returns.
+/// as empty, and, for a TriMesh, cut polygons into fans, which is wrong for concave polygons. The values equal those of
+/// `alcove bake` if to_mesh() returns the same mesh as read_mesh().
 #pragma once
 
 #include "alcove/bake/bake.h"
@@ -35,8 +35,8 @@ concept OpenMeshType = std::derived_from<T, OpenMesh::PolyConnectivity> &&
     { mesh.has_vertex_normals() } -> std::same_as<bool>;
 };
 
-/// Converts positions, faces and, if the mesh has them, vertex normals, scaled to unit length. Order is kept; elements
-/// marked as deleted are left out. Cost: linear.
+/// Converts positions, faces and, if the mesh has them, vertex normals, which are scaled to unit length. Keeps the
+/// order of the elements; leaves out those that are marked as deleted. Cost: linear.
 template <OpenMeshType T>
 Mesh to_mesh(const T& mesh) {
     Mesh result;
@@ -65,8 +65,9 @@ Mesh to_mesh(const T& mesh) {
 /// baking throws, the mesh is not changed.
 ///
 /// Each requested channel is stored in the vertex property of its name ("ao", "bent_normal"), of type `float` or
-/// `OpenMesh::Vec3f`. A missing property is added and is not persistent. Values of deleted vertices are not changed.
-/// Normals that were requested from OpenMesh but never computed are zero; NormalSource::automatic replaces them.
+/// `OpenMesh::Vec3f`. If the property is missing, it is added, but not as persistent. Values of deleted vertices are
+/// not changed. Normals that were requested from OpenMesh but never computed are zero; NormalSource::automatic replaces
+/// them.
 template <OpenMeshType T>
 Baked bake(T& mesh, const BakeOptions& options = {}) {
     Baked baked = bake(to_mesh(mesh), options);

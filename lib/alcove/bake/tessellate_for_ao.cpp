@@ -14,9 +14,9 @@
 namespace alcove {
 namespace {
 
-constexpr int rays = 256; // noise of about 0.006
+constexpr int rays = 256; // per point; their noise is about 0.006
 
-/// Decides where the ao of a surface differs too much from its interpolation.
+/// Decides at which points the ao differs too much from the ao that is interpolated between vertices.
 class InterpolationError {
   public:
     InterpolationError(const Mesh& mesh, const std::vector<Triangle>& triangles, const Frame& frame,
@@ -31,7 +31,7 @@ class InterpolationError {
         for (const PointBetween& point : points)
             surfels.push_back({frame_.to_unit(point.position), point.normal});
         const std::vector<float> ao = ao_of(std::move(surfels));
-        ao_.insert(ao_.end(), ao.begin(), ao.end()); // later points may be interpolated from these
+        ao_.insert(ao_.end(), ao.begin(), ao.end()); // later points may lie between these
         std::vector<bool> differs(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             double interpolated = 0.0;
@@ -64,12 +64,13 @@ Mesh tessellate_for_ao(const Mesh& mesh, const BakeOptions& options) {
     const std::vector<Triangle> triangles = triangulate(mesh).triangles;
     const Frame frame = frame_of(mesh.box());
     const float radius = radius_of(options, frame, voxelizing_of(options, frame));
-    std::vector<std::string> warnings; // discarded: bake() repeats them
+    std::vector<std::string> warnings; // discarded, because bake() gives them too
     const Surroundings surroundings(options, mesh, frame, radius, warnings);
     const RaySurface surface = surroundings.rays_around({mesh.positions, triangles, frame});
     InterpolationError error(mesh, triangles, frame, options, surface, radius);
 
-    // Fractions of the radius: smaller details do not need a vertex, larger ones must not fall between tested points.
+    // Fractions of the radius. Details below the first need no vertex of their own; details above the second must not
+    // fall between tested points.
     constexpr double of_shortest = 1.0 / 16.0, of_spacing = 0.5;
     constexpr std::size_t max_faces = 1'000'000, max_growth = 4;
     const double reach = std::min(double(radius), 0.25) * frame.diagonal;

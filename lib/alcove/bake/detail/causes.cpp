@@ -19,7 +19,7 @@ namespace {
 constexpr double large_rmse = 0.1, thin_wall_rmse = 0.03;
 constexpr std::size_t max_surfels = 4096;
 
-/// The finest voxel that may be requested, unit space; infinite if the grid is given.
+/// The finest voxel that the user can request, unit space; infinite if the user has supplied the grid.
 double finest_possible_voxel(const BakeTarget& target) {
     if (target.grid)
         return std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ std::string thin_walls_warning(const BakeTarget& target, const Occluders& occlud
     const ThinWalls walls = thin_walls(target.surfels, occluders.rays(), resolution(field), two_sided(field));
     if (!walls.noticeable())
         return {};
-    constexpr double clearly = 0.98; // the voxel is printed with three digits and must not be rounded up
+    constexpr double clearly = 0.98; // because the voxel is printed with three digits and must not be rounded up
     const double fine_enough = clearly * double(walls.voxel), diagonal = target.frame.diagonal;
     const std::string finer =
         fine_enough < finest_possible_voxel(target) ? "" : fmt::format("--voxel {:.3g}, or ", fine_enough * diagonal);
@@ -70,7 +70,7 @@ std::vector<std::string> causes_of(double rmse, const BakeTarget& target, const 
     std::string cause = method.needs_grid ? thin_walls_warning(target, occluders) : "";
     if (cause.empty())
         cause = contact_warning(target);
-    if (cause.empty() && task.error) // the caller reports that the error is missed
+    if (cause.empty() && task.error) // the caller reports the missed error
         return warnings;
     if (cause.empty())
         cause = method.samples_are == SampleKind::rays && method.needs_mesh
@@ -105,8 +105,8 @@ std::string coarse_faces_warning(const BakeTarget& target, std::span<const float
     }
     if (large_area < 0.1 * all_area || large_area <= 0.0)
         return {};
-    // Points that each represent an equal share of the area, placed within each triangle by an additive recurrence
-    // (Roberts 2018).
+    // Choose points that each represent an equal share of the area. An additive recurrence (Roberts 2018) places them
+    // within the triangles.
     std::vector<Surfel> points;
     std::vector<float> interpolated;
     double next = 0.5, before = 0.0;

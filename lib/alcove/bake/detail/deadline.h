@@ -1,4 +1,4 @@
-/// A time limit that refuses work that would clearly exceed it.
+/// A time limit. Refuses work that would clearly exceed it.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace alcove {
 
 class Deadline {
   public:
-    /// Starts now; empty: no limit.
+    /// The time starts now. If `seconds` is empty, there is no limit.
     explicit Deadline(std::optional<double> seconds) : seconds_(seconds) {}
 
     bool is_set() const { return seconds_.has_value(); }
@@ -18,10 +18,10 @@ class Deadline {
     double left() const;
 
     /// Returns options that reduce the work to the fraction `share`, in (0, 1), such as "--rays 20"; empty if no option
-    /// does.
+    /// does this.
     using Remedy = std::function<std::string(double share)>;
     /// \throw TimeLimitError if `seconds`, an estimate, exceeds `clearly_late` times the remaining time. The factor
-    /// allows for the inexactness of the estimate.
+    /// allows for errors in the estimate. The message contains the remedy.
     void check(double seconds, const Remedy& remedy) const;
 
   private:
@@ -30,9 +30,9 @@ class Deadline {
     Clock::time_point start_ = Clock::now();
 };
 
-inline constexpr double clearly_late = 2.0; ///< factor on the remaining time
+inline constexpr double clearly_late = 2.0; ///< see Deadline::check()
 
-/// Runs `work`. \return its CPU seconds (of the whole process) divided by the number of threads.
+/// Runs `work`. \return the CPU seconds that the process spent meanwhile, divided by the number of threads.
 double shared_seconds_of(const std::function<void()>& work);
 
 }

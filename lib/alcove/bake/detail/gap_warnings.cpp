@@ -11,8 +11,8 @@
 namespace alcove {
 namespace {
 
-/// The number of vertices at whose position another vertex has a slightly different normal. The surface is smooth
-/// there, but each vertex has the normal of only its own faces.
+/// The number of vertices that share their position with a vertex whose normal is slightly different. The surface is
+/// smooth there, but the normal of each vertex takes only its own faces into account.
 std::size_t faceted_vertices(const Gaps& gaps, std::span<const Surfel> surfels) {
     constexpr float flat = 0.99985f, sharp = 0.766f; // cos 1° and cos 40°
     constexpr std::ptrdiff_t most_compared = 64;     // the work is quadratic in the number of vertices at a position

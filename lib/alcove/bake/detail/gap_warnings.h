@@ -8,8 +8,8 @@
 
 namespace alcove {
 
-/// `surfels` are the vertices of the mesh. With `own_normals`, their normals come from the file, so that shared
-/// positions do no harm. \return one line each: the defect and its fix.
+/// `surfels` are the vertices of the mesh. With `own_normals`, their normals come from the file, so vertices that share
+/// a position do no harm. \return warnings, of one line each, that name a defect and its fix.
 std::vector<std::string> gap_warnings(const Mesh& mesh, std::span<const Triangle> triangles,
                                       std::span<const Surfel> surfels, bool own_normals);
 

@@ -100,7 +100,7 @@ std::vector<std::string> input_warnings(const BakeTarget& target, std::string_vi
             warn_of_hard_edges(target.mesh, warnings);
         }
     }
-    if (options.faces.empty()) // with a selection, most surfels lack normals on purpose
+    if (options.faces.empty()) // a selection removes normals on purpose
         warn_of_missing_normals(target.surfels, name, warnings);
     warn_of_outliers(target, options.radius, warnings);
     warn_of_offset(target, warnings);

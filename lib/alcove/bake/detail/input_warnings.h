@@ -9,9 +9,9 @@
 
 namespace alcove {
 
-/// \param name of the surfels, such as "vertices"
-/// \param of_vertices whether they are the vertices of the mesh
-/// \return one line each: the defect and its fix.
+/// \param what the surfels are called in messages, such as "vertices"
+/// \param of_vertices whether the surfels are the vertices of the mesh
+/// \return warnings, of one line each, that name a defect and its fix.
 std::vector<std::string> input_warnings(const BakeTarget& target, std::string_view name, bool of_vertices,
                                         const BakeOptions& options);
 

@@ -15,8 +15,8 @@ void require(bool holds, const std::string& otherwise) {
         throw InputError(otherwise);
 }
 
-/// Whether the numbers of rays and samples are fixed: a method is named without an error, or there is no ao whose error
-/// could be met.
+/// Whether the numbers of rays and samples are fixed: a method is named without an error, or there is no ao for which
+/// an error could be met.
 bool is_fixed(const BakeOptions& options) {
     return !options.attributes.has(Channel::ao) || (!options.method.empty() && !options.error);
 }
@@ -90,7 +90,7 @@ BakeTask task_of(const BakeOptions& options) {
             task.settings.parameters.emplace_back("seed", options.seed);
         check_settings(needed, task.settings);
     } else if (options.attributes.has(Channel::ao_short) || options.attributes.has(Channel::ao_long)) {
-        methods_for(find_method("exact"), options.attributes); // throws and names the method that gives them
+        methods_for(find_method("exact"), options.attributes); // throws; the message names a suitable method
     }
     return task;
 }
@@ -99,7 +99,7 @@ VoxelizeOptions voxelizing_of(const BakeOptions& options, const Frame& frame) {
     VoxelizeOptions voxelizing;
     voxelizing.sign = options.sign;
     GridOptions& grid = voxelizing.grid;
-    grid.cluster = !options.keep_grid; // grids that are kept are built from all triangles
+    grid.cluster = !options.keep_grid; // grids to keep are built from all triangles
     if (std::any_of(channels.begin(), channels.end(), [&](const ChannelInfo& channel) {
             return channel.inside && options.attributes.has(channel.channel);
         }))

@@ -5,7 +5,7 @@
 
 namespace alcove {
 
-/// \throw InputError for methods, parameters and attributes that do not fit together.
+/// \throw InputError if the method, the parameters and the attributes do not fit together.
 BakeTask task_of(const BakeOptions& options);
 
 /// The voxelization options for a mesh, in the unit space of its frame. \throw InputError as Length::to_unit()

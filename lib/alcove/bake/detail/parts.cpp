@@ -29,8 +29,9 @@ bool has_area(const BakeTarget& target) {
     return std::any_of(normals.begin(), normals.end(), [](const Vec3& n) { return n != Vec3(0.0f); });
 }
 
-/// Refuses the rest of the parts if it would clearly exceed the deadline, judged by those that are finished. Both the
-/// number of parts and that of surfels count, as the grid of a small part takes as long as that of a large one.
+/// Refuses to bake the remaining parts if they would clearly exceed the deadline, judging by the finished parts.
+/// Considers both the number of parts and the number of surfels, because the grid of a small part takes as long as that
+/// of a large one.
 class TimeOfParts {
   public:
     TimeOfParts(const BakeTask& task, std::size_t parts, std::size_t surfels)
@@ -104,7 +105,7 @@ class WholeResult {
         for (const auto& [label, by] : surfels_by_)
             if (by.second > most) {
                 most = by.second;
-                result_.choice = by.first; // the choice for the most surfels
+                result_.choice = by.first; // the choice that most surfels have
             }
         return std::move(result_);
     }

@@ -14,9 +14,9 @@ namespace {
 constexpr std::uint32_t first_seed = 0x9d1f, second_seed = 0x51ab;
 constexpr std::size_t neighbours = 1024; // difficulty() compares neighbours among this many surfels on the Morton curve
 
-/// Options with about `rays` rays per surfel. Up to four times the default number of rays per surfel, the number of
-/// surfels is reduced so that the total number of rays stays constant. If `rays` is larger than that, the rays per
-/// surfel are doubled until they reach half of `rays`, because noise would hide the error; the total then grows.
+/// Options with about `rays` rays per surfel. Takes up to four times the default number of rays per surfel, at fewer
+/// surfels, so that the total number of rays stays constant. If `rays` is larger than that, doubles the rays per surfel
+/// until they reach half of `rays`, because noise would hide the error; the total then grows.
 PilotOptions pilot_of(double rays) {
     constexpr int max_share = 4, max_rays = 4096;
     constexpr PilotOptions standard{};
@@ -38,7 +38,7 @@ double without(double square, double noise2) {
 
 PilotOptions pilot_for(double error) {
     constexpr double rays_at_one = 5.0; // so that the noise is at most a quarter of the error
-    constexpr double loose = 0.04;      // from this error on, noise of a third is enough: little is subtracted
+    constexpr double loose = 0.04;      // from this error on, noise of a third of it is enough: little is subtracted
     constexpr PilotOptions standard{};
     return error >= loose ? PilotOptions{standard.surfels, standard.rays / 2} : pilot_of(rays_at_one / error);
 }
@@ -62,7 +62,7 @@ Pilot::Pilot(std::span<const Surfel> surfels, std::span<const std::uint32_t> ord
     for (std::size_t i = 0; i < reference_.size(); ++i)
         reference_[i] = 0.5f * (reference_[i] + other[i]);
     take_labels();
-    // The surfels are in the order of the Morton curve.
+    // The surfels are in Morton order.
     const std::size_t apart = std::max<std::size_t>(reference_.size() / neighbours, 1);
     double steps2 = 0.0;
     for (std::size_t i = apart; i < reference_.size(); ++i)
@@ -131,9 +131,10 @@ double Pilot::rmse_of_exact(int rays, std::uint32_t seed) const {
 }
 
 int Pilot::rays_for(double error, std::uint32_t seed) const {
-    // The error does not fall monotonically with the number of rays, so the result is a number that was tried.
+    // The error does not fall monotonically with the number of rays, so the result is the smallest number that was
+    // tried and met the error, if there is one.
     constexpr int max_attempts = 16;
-    // Rare rays that differ between runs leave an error that no number of rays removes.
+    // Rare rays that differ between runs leave an error that remains however many rays there are.
     constexpr double clearly_more = 1.5, hardly_less = 0.93;
     constexpr int many_rays = 2048; // from this number on, small steps would hide such an error
     int rays = 16, enough = most_rays, last_rays = most_rays;

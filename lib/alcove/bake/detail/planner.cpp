@@ -18,10 +18,10 @@ namespace {
 // fewer rays than planned are enough.
 constexpr int share_of_first_trial = 3, min_rays_of_trial = 4;
 
-// Standard deviation of log(measured / expected error) on meshes that the table was not measured on.
+// Standard deviation of log(measured / expected error) on meshes other than those on which the table was measured.
 constexpr double spread = 0.3;
 
-// With Via::grid, exact is planned only if the field costs this many times as much as exact, and also at least
+// With Via::grid, the field is too expensive if it costs this many times as much as exact, and also
 // PlanRequest::allowed_seconds more.
 constexpr double allowed_ratio = 1.5;
 
@@ -30,7 +30,7 @@ double chance(double rmse, double error) {
     return 0.5 * std::erfc(std::log(rmse / error) / (spread * std::sqrt(2.0)));
 }
 
-/// Interpolates the table; constant beyond its first and last radius.
+/// Interpolates the values of the table between its radii. The result is constant beyond the first and the last radius.
 template <std::size_t n>
 double at_radius(const std::array<double, n>& values, float radius) {
     static_assert(n == plan_table::radii.size());
@@ -55,7 +55,7 @@ double tree_seconds(const PlanRequest& request) {
     return plan_table::tree_seconds_per_triangle * static_cast<double>(request.triangles);
 }
 
-/// Whether the voxels are too large for the radius.
+/// Whether the voxel that is chosen by default exceeds half the radius.
 bool is_too_coarse(const PlanRequest& request) {
     return !request.method && 2.0f * chosen_voxel(request.radius, GridOptions{}.largest_voxel) > request.radius;
 }
@@ -130,7 +130,7 @@ void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilo
         add(request, plan_of(row, row.samples, rmse_of(row)), row.seconds_per_surfel);
         if (!find_method(row.method).needs_mesh)
             continue;
-        // A ray count between two of the table, chosen so that its expected error is slightly below the wanted one.
+        // Add a ray count between two of the table, whose expected error is slightly below the wanted one.
         if (i > 0 && same_series(rows[i - 1], row) && rmse_of(row) < target && target < rmse_of(rows[i - 1])) {
             const plan_table::Row& fewer = rows[i - 1];
             const double way = std::log(target / rmse_of(fewer)) / std::log(rmse_of(row) / rmse_of(fewer));
@@ -140,7 +140,8 @@ void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilo
                 add(request, plan_of(row, samples, target),
                     fewer.seconds_per_surfel + way * (row.seconds_per_surfel - fewer.seconds_per_surfel));
         }
-        // Guided converges to exact: with as many rays as exact, its error is hardly larger, whatever the table says.
+        // Guided converges to exact: with as many rays, its error is hardly larger than that of exact, whatever the
+        // table says.
         if (i + 1 == rows.size() || !same_series(row, rows[i + 1]))
             for (const double more : {1.0, 1.3, 1.7, 2.25}) {
                 const int samples = std::min(static_cast<int>(std::ceil(more * exact_rays)), Pilot::most_rays);
@@ -150,7 +151,7 @@ void Planner::add_methods_of_field(const PlanRequest& request, const Pilot& pilo
     }
 }
 
-/// Null if no untried candidate is expected to meet the error.
+/// The cheapest untried candidate that is expected to meet the error; null if there is none.
 const Planner::Candidate* Planner::cheapest() const {
     const Candidate* best = nullptr;
     const auto look_at = [&](const std::vector<Candidate>& candidates) {
@@ -199,7 +200,7 @@ Plan Planner::next() const {
     const auto found = std::find_if(candidates_.begin(), candidates_.end(), is_planned);
     if (found != candidates_.end())
         return fewer_rays_before(cheap_trial_before(*found)).plan;
-    // Exact rays: if other methods are allowed, a cheaper one may also meet the error.
+    // The plan is exact. If other methods are allowed, a cheaper one may also meet the error.
     return avoids_exact_ || fallback_.empty() ? planned : fewer_rays_before(cheap_trial_before(fallback_.front())).plan;
 }
 
@@ -223,7 +224,8 @@ const Planner::Candidate& Planner::cheap_trial_before(const Candidate& planned) 
     const Candidate* trial = &planned;
     double saved = 0.0;
     for (const Candidate& other : candidates_) {
-        // A method that missed the error is tried again only if its expected error is at most slightly too large.
+        // A method that missed the error is tried again only if its corrected expected error is too large by little or
+        // not at all.
         constexpr double little = 1.1;
         if (other.tried || (is_known(other.plan.choice.method) && other.plan.rmse > little * error_))
             continue;
@@ -268,7 +270,8 @@ void Planner::update(const Plan& tried, double rmse, double share) {
     for (Candidate& candidate : candidates_) {
         Plan& plan = candidate.plan;
         candidate.tried = candidate.tried || is_tried(candidate);
-        // The table may be wrong about a mesh although the bound by exact rays is right.
+        // Correct table errors and bounds by exact rays separately: the table may be wrong about a mesh for which the
+        // bounds are right.
         if (plan.choice.method == tried.choice.method && candidate.is_bound == is_bound)
             plan.rmse *= correction;
         if (plan.largest_voxel == tried.largest_voxel) { // its grid exists now

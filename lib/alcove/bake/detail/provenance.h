@@ -7,7 +7,7 @@
 
 namespace alcove {
 
-/// The beginning of the comment that a bake adds.
+/// The beginning of the comment that a bake adds to a file.
 inline constexpr std::string_view provenance = "alcove ";
 
 /// The comment of an earlier bake in the file; empty if there is none.

@@ -16,7 +16,7 @@ bool has_name_like(const FaceGroup& group, std::string_view pattern) {
                        [&](const std::string& name) { return matches(name, pattern); });
 }
 
-/// Calls f(group) for all groups that a pattern matches.
+/// Calls f(group) for all groups that a pattern matches. \throw InputError if a pattern matches none.
 template <class F>
 void for_each_match(const Mesh& mesh, const std::vector<std::string>& patterns, std::string_view option, F&& f) {
     for (const std::string& pattern : patterns) {
@@ -47,7 +47,7 @@ void for_each_match(const Mesh& mesh, const std::vector<std::string>& patterns, 
 }
 
 bool matches(std::string_view name, std::string_view pattern) {
-    // Remembers the last *, and lets it match one more character after each failure.
+    // Remember the last *, and let it match one more character after each failure.
     std::size_t n = 0, p = 0, star = std::string_view::npos, resume = 0;
     while (n < name.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

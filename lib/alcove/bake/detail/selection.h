@@ -8,7 +8,7 @@
 
 namespace alcove {
 
-/// Flags of the selected faces. Each member has one entry per face.
+/// Flags that select faces. Each member has one entry per face.
 struct SelectedFaces {
     std::vector<std::uint8_t> baked, occluding;
 };
@@ -16,11 +16,11 @@ struct SelectedFaces {
 /// \throw InputError if a name matches no group, or if no face is left to bake.
 SelectedFaces select_faces(const Mesh& mesh, const FaceSelection& selection);
 
-/// The mesh without the faces that neither are baked nor occlude. All vertices are kept.
+/// The mesh without the faces that are neither baked nor occluding. Keeps all vertices, the normals and the source;
+/// drops UVs and colours.
 Mesh remaining(const Mesh& mesh, const SelectedFaces& selected);
 
-/// Whether a name matches a pattern, in which * stands for any text and ? for any character. The case of letters
-/// counts.
+/// Whether a name matches a pattern, in which * stands for any text and ? for any one character. Case-sensitive.
 bool matches(std::string_view name, std::string_view pattern);
 
 }

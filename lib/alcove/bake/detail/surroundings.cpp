@@ -16,7 +16,7 @@
 namespace alcove {
 namespace {
 
-constexpr double share_of_memory = 0.25; // for the grids of all occluders together
+constexpr double share_of_memory = 0.25; // of the memory limit, for all occluders together
 
 // Fractions of the diagonal of an occluder.
 constexpr float smallest_voxel = 1.0f / 512.0f, largest_voxel = 1.0f / 32.0f;
@@ -36,7 +36,7 @@ Surroundings::Surroundings(const BakeOptions& options, const Mesh& mesh, const F
         if (std::isfinite(lowest))
             ground_ = Ground{up, lowest};
     }
-    // Probes are at most one radius away from a vertex and read distances up to one radius: together, two radii.
+    // Probes are at most one radius away from a vertex and read distances of at most one radius.
     const Vec3d margin(2.0 * radius_);
     const Box box = mesh.box();
     for (const Mesh& occluder : options.occluders)
@@ -128,7 +128,7 @@ RaySurface Surroundings::rays_around(const Occludee& baked) const {
     for (const Occluder& occluder : occluders_)
         add(occluder.mesh.positions, occluder.triangles);
     if (ground_) {
-        constexpr float horizon = 100.0f; // unit space; maximum length of rays through an unbounded field
+        constexpr float horizon = 100.0f; // unit space; also the maximum length of rays through an unbounded field
         const Basis basis(Vec3(ground_->up));
         const auto first = static_cast<std::uint32_t>(positions.size());
         for (const Vec2 corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})

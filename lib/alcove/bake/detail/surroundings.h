@@ -1,4 +1,4 @@
-/// The occluders of a mesh other than itself: other meshes and the ground.
+/// The occluders of a mesh other than the mesh itself: other meshes and the ground.
 #pragma once
 
 #include "alcove/bake/bake.h"
@@ -16,23 +16,23 @@ struct OccluderNeeds {
 struct Occludee {
     std::span<const Vec3d> positions; ///< scene units
     std::span<const Triangle> triangles;
-    Frame frame; ///< of its unit space
+    Frame frame; ///< defines its unit space
 };
 
-/// Occluders in scene units, so that they can be transformed to any unit space.
+/// Holds the occluders in scene units, so that they can be transformed to any unit space.
 class Surroundings {
   public:
-    /// Keeps the parts of the occluders that are near enough to occlude. The ground is the plane through the lowest
-    /// vertex that a face of `mesh` uses. `radius` is in the unit space of `frame`. Appends to the warnings.
+    /// Keeps only those parts of the occluders that are near enough to occlude. The ground is the plane through the
+    /// lowest vertex that a face of `mesh` uses. `radius` is in the unit space of `frame`. Appends to the warnings.
     Surroundings(const BakeOptions& options, const Mesh& mesh, const Frame& frame, float radius,
                  std::vector<std::string>& warnings);
 
-    /// Builds the grids of the occluders. `voxel` (scene units; 0: chosen automatically) is the largest allowed voxel,
-    /// clamped to between 1/512 and 1/32 of each occluder's diagonal; memory may require a larger one. Appends to the
-    /// warnings.
+    /// Builds the grids of the occluders. Their voxels are at most `voxel`, in scene units, clamped to between 1/512
+    /// and 1/32 of each occluder's diagonal, unless the memory limit requires larger ones. If `voxel` is 0, the voxels
+    /// are chosen automatically. Appends to the warnings.
     /// \throw like alcove::voxelize().
     void voxelize(double voxel, std::vector<std::string>& warnings);
-    /// Whether the grids of the occluders fit in memory.
+    /// Whether the grids of the occluders fit in their share of the memory limit.
     bool fit() const;
     std::size_t bytes() const; ///< memory of the grids of the occluders
 

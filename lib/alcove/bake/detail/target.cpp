@@ -64,14 +64,15 @@ class TargetBake {
     }
 
   private:
-    /// The error of rays that start higher than 1/1000 of the radius, as coordinates are rounded. The pilot does not see
-    /// it, as its own rays start there, too. Measured on balls and grooves: one to three times the height.
+    /// The error that arises where rays start higher than 1/1000 of the radius, as they must because coordinates are
+    /// rounded. The pilot does not see this error, because its own rays start at the same height. On balls and grooves,
+    /// the error was one to three times the height in units of the radius.
     double error_of_offset() const {
         constexpr double usual = 1e-3, error_per_height = 3.0;
         return error_per_height * std::max(ray_offset(target_.radius) / double{target_.radius} - usual, 0.0);
     }
 
-    /// Whether most surfels may be interpolated, so that their contacts need not be known.
+    /// Whether the values of most surfels may be interpolated, so that their contacts need not be found.
     bool is_dense() const {
         constexpr std::size_t many_surfels = 100'000;
         return has_pilot() && task_.error && (!task_.method || is_planned(*task_.method)) &&
@@ -86,7 +87,7 @@ class TargetBake {
         return method.needs_mesh || method.name == "calibrated"; // the cost table has only these
     }
 
-    /// Whether there is a grid regardless of the plan, so the planner cannot choose its voxel.
+    /// Whether there is a grid whatever the plan is, so that the planner cannot choose the voxel.
     bool has_fixed_grid() const {
         return target_.grid || task_.keep_grid || target_.voxelizing.grid.voxel > 0.0f ||
                alcove::needs_of(find_method("exact"), task_.attributes).field;
@@ -143,9 +144,10 @@ class TargetBake {
         return interpolated.has_value();
     }
 
-    /// Evaluates a plan at some of the surfels and interpolates the others, see evaluate_interpolated(). Attributes
-    /// that cannot be interpolated are evaluated at all surfels. Keeps the values if they meet the error. \return the
-    /// RMSE; std::nullopt if too many surfels would have to be evaluated.
+    /// Evaluates a plan at some of the surfels and interpolates the values of the others; see evaluate_interpolated().
+    /// Attributes that cannot be interpolated are evaluated at all surfels. Keeps the values only if they meet the
+    /// error.
+    /// \return the RMSE; std::nullopt if too many surfels would have to be evaluated.
     std::optional<double> interpolate(const Plan& plan, const Interpolation& interpolation, float largest_voxel) {
         const Method& method = *plan.choice.method;
         const Settings settings = settings_of(plan.choice);
@@ -182,8 +184,9 @@ class TargetBake {
         return rmse;
     }
 
-    /// Interpolates most surfels if there are many, if this is expected to be faster than evaluating the plan at all of
-    /// them, and if the result meets the error. \return whether the interpolated values were kept.
+    /// Interpolates the values of most surfels if there are many surfels, if this is expected to be faster than
+    /// evaluating the plan at all of them, and if the result meets the error. \return whether the interpolated values
+    /// were kept.
     bool bake_interpolated(const PlanRequest& request, const Pilot& pilot, double seconds_of_all) {
         constexpr double usual_share = 0.15, max_share = 0.4, clearly_faster = 0.8;
         constexpr double seconds_per_surfel = 1.2e-7; // of the interpolation, on the machine of the planner's table
@@ -225,16 +228,16 @@ class TargetBake {
         result_.seconds.pilot += watch.lap();
     }
 
-    /// Whether the field resolves the occluders within the radius.
+    /// Whether the voxels are fine enough for occluders within the radius.
     bool resolves_radius() {
         const Occluders occluders = occluders_.get({.field = true, .rays = false}, GridOptions{}.largest_voxel);
         return occluders.field().resolution() <= 0.5f * target_.radius;
     }
 
-    /// The number of rays of guided for a surfel that has few others to share rays with, or where the field does not
-    /// help.
+    /// The least number of rays per surfel for guided. It is higher if there are few surfels, which have few others to
+    /// share rays with, or if the field is too coarse to help.
     int rays_for_few_or_unresolved() {
-        constexpr std::size_t shared = 1 << 17; // total of all surfels, which takes some hundredths of a second
+        constexpr std::size_t shared = 1 << 17; // rays of all surfels together, which take some hundredths of a second
         constexpr std::size_t most = 64;
         constexpr int unresolved = 32;
         const auto rays = static_cast<int>(std::min(shared / std::max<std::size_t>(target_.surfels.size(), 1), most));
@@ -265,9 +268,9 @@ class TargetBake {
     static constexpr std::size_t sample_stride = 8;
     static constexpr double sample_tolerance = 1.08; // the error of a sample is accurate to about a tenth
 
-    /// The error, at an eighth of the surfels, of a plan that uses the field: a plan that misses the target then costs
-    /// little. The sample consists of runs along the Morton curve, since neighbours share rays. std::nullopt if there
-    /// are few surfels, or if the grid does not fit in memory.
+    /// The error of a plan that uses the field, measured at an eighth of the surfels, so that a plan that misses the
+    /// target costs little. The sample consists of runs along the Morton curve, because neighbours share rays.
+    /// std::nullopt if there are few surfels, or if the grid does not fit in memory.
     std::optional<double> rmse_on_sample(const Plan& plan, bool has_grid) {
         constexpr std::size_t many_surfels = 100'000, runs = 64, stride = sample_stride;
         if (target_.surfels.size() < many_surfels || plan.largest_voxel == 0.0f)
@@ -323,7 +326,7 @@ class TargetBake {
             try {
                 evaluate_with(plan.choice, settings_of(plan.choice),
                               has_grid ? GridOptions{}.largest_voxel : plan.largest_voxel);
-            } catch (const LimitError&) { // clustering removed fewer vertices than planned
+            } catch (const LimitError&) { // clustering merged fewer vertices than expected
                 if (plan.largest_voxel == 0.0f || has_grid)
                     throw;
                 planner.leave_out(plan.largest_voxel);

@@ -13,8 +13,8 @@ namespace alcove {
 /// Settings that all targets of a bake share.
 struct BakeTask {
     const Method* method = nullptr;       ///< null: the planner chooses
-    Settings settings{};                  ///< of `method`; the radius is the target's
-    std::optional<double> target_error{}; ///< RMSE to meet; empty: fixed settings
+    Settings settings{};                  ///< of `method`; the radius comes from the target
+    std::optional<double> target_error{}; ///< RMSE to meet; empty if the settings are fixed
     std::optional<double> error{};        ///< RMSE to plan for, at most target_error
     ChannelSet attributes = Channel::ao;
     Via via = Via::grid;
@@ -32,14 +32,14 @@ struct BakeTarget {
     float radius;                    ///< unit space; may be infinite
     VoxelizeOptions voxelizing;      ///< unit space
     const GridStack* grid = nullptr; ///< in the same frame; used instead of voxelizing
-    /// Voxel of the grids of occluders, scene units; 0: chosen automatically; empty: the voxel of the target's own
-    /// grid.
+    /// Largest voxel of the grids of occluders, scene units. 0: chosen automatically; empty: the voxel of the target's
+    /// own grid.
     std::optional<double> occluder_voxel{};
-    PilotOptions pilot_share{}; ///< only `surfels` is used: the maximum for the pilot of this target
-    double share = 1.0;         ///< share of all surfels of the bake
+    PilotOptions pilot_share{}; ///< only the member `surfels` is used, as the maximum for this target
+    double share = 1.0;         ///< the share that this target has of all surfels of the bake
     IsOwnFace is_own_face = uses_vertex;
-    /// If set, it is called with the ao of all surfels and returns further ones, whose values are appended. For
-    /// is_own_face, their indices follow those of `surfels`.
+    /// If set, is called with the ao of all surfels so far and returns further surfels, whose values are appended,
+    /// until it returns none. For is_own_face, the indices of the surfels from one call follow those of `surfels`.
     std::function<std::vector<Surfel>(std::span<const float> ao)> more{};
 };
 
@@ -56,7 +56,7 @@ struct TargetResult {
 };
 
 /// Bakes with the method of the task or with the cheapest plan. If the pilot measures an RMSE above the one to meet,
-/// plans and bakes again. Also finds the contacts of the surfels. \throw like bake()
+/// makes another plan and bakes again. Also finds the contacts of the surfels. \throw like bake()
 TargetResult bake_target(BakeTarget& target, const BakeTask& task, Surroundings& surroundings,
                          const BakeProgress& progress);
 

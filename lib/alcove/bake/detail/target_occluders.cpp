@@ -56,7 +56,7 @@ TargetOccluders::BuiltField TargetOccluders::build(float largest_voxel) {
     if (!target_.grid) {
         VoxelizeOptions options = target_.voxelizing;
         options.grid.largest_voxel = largest_voxel;
-        // The planner chooses larger voxels where they suffice.
+        // Larger voxels get no partial levels, because the planner chooses them only where they suffice.
         options.grid.refine = largest_voxel <= GridOptions{}.largest_voxel;
         if (progress_)
             options.progress = [&](double done) { progress_("voxelizing", done); };

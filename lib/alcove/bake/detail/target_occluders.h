@@ -19,10 +19,10 @@ class TargetOccluders {
     const AnyField& field(float largest_voxel);
     Occluders get(OccluderNeeds needs, float largest_voxel);
 
-    /// Summary of the field that get() or field() returned last; without levels if get() returned only triangles.
+    /// The summary of the field that get() or field() returned last. It has no levels if get() returned only triangles.
     const GridSummary& summary() const { return current_ ? current_->summary : none_; }
     const std::vector<std::string>& warnings() const { return current_ ? current_->warnings : no_warnings_; }
-    /// Moves the level sets of a field out. \pre `keep_grid`
+    /// Moves out the level sets of a field. \pre `keep_grid`
     GridStack take_stack(float largest_voxel);
     double seconds() const { return seconds_; } ///< wall-clock seconds spent on building
 

@@ -36,7 +36,7 @@ void TargetSurfels::find_contacts(std::span<const std::uint32_t> indices, std::s
 }
 
 int TargetSurfels::cheap_rays() const {
-    constexpr std::size_t of_all = 1 << 15, most = 4096; // take some thousandths of a second
+    constexpr std::size_t of_all = 1 << 15, most = 4096; // these take some thousandths of a second
     return static_cast<int>(std::min(of_all / std::max<std::size_t>(target_.surfels.size(), 1), most));
 }
 
@@ -63,7 +63,7 @@ const Pilot& TargetSurfels::pilot(const PilotOptions& options) {
         Stopwatch watch;
         PilotOptions share = options;
         share.surfels = std::min(share.surfels, target_.pilot_share.surfels);
-        // The noise of few surfels does not cancel out. The reference must have less of it than the bake.
+        // With few surfels, noise does not cancel out. The reference must therefore be less noisy than the bake.
         constexpr int per_ray_of_bake = 4;
         share.rays = std::max(share.rays, per_ray_of_bake * cheap_rays());
         if (!has_all_contacts_)

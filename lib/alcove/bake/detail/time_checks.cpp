@@ -12,12 +12,12 @@ namespace alcove {
 void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::span<const std::uint32_t> order,
                 const Occluders& occluders, const MethodChoice& choice, Settings settings, ChannelSet wanted) {
     constexpr std::size_t max_batches = 64, min_stride = 8;
-    constexpr int max_samples = 1024; // of the trial; its time is proportional to their number
-    constexpr double certain = 2.0;   // ratio to the limit, above or below it
+    constexpr int max_samples = 1024; // per surfel in a trial; the time is proportional to this number
+    constexpr double certain = 2.0;   // factor above or below the limit
     if (!deadline.is_set())
         return;
-    // The trial omits the fit, which takes longer than the trial and whose time does not grow with the number of
-    // surfels.
+    // Without labels, the trial omits the fit. The fit would take longer than the trial, and its time does not grow
+    // with the number of surfels.
     settings.labels.reset();
     double samples_left_out = 1.0;
     if (choice.samples > max_samples) {
@@ -46,8 +46,6 @@ void check_time(const Deadline& deadline, std::span<const Surfel> surfels, std::
     });
 }
 
-/// Refuses a plan that would clearly miss the deadline. Takes its time from the planner's cost table, so it assumes a
-/// machine as fast as the one that the table was measured on.
 void check_time(const Deadline& deadline, const Plan& plan, const PlanRequest& request, const Pilot& pilot) {
     deadline.check(plan.seconds / static_cast<double>(thread_count()), [&](double share) -> std::string {
         for (PlanRequest other = request; const double error : {0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1}) {
