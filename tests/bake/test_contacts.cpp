@@ -1,5 +1,6 @@
 /// Ambient occlusion where surfaces touch: closed forms at edges, corners and contacts.
 #include "alcove/bake/bake.h"
+#include "alcove/mesh/triangulate.h"
 
 #include "shapes.h"
 
@@ -281,6 +282,38 @@ TEST(Contacts, SeamsOfSmoothSurfacesKeepTheirValues) {
         for (const float ao : cavity.ao())
             EXPECT_NEAR(ao, 1.0 - 0.4 * 0.4, 0.02);
     }
+}
+
+// Points on an edge get the same values as points near it. The quads are not flat, so faces that meet at an edge may each
+// be in front of a part of the other.
+TEST(Contacts, EdgesOfSmoothSurfacesAreNotDark) {
+    Mesh mesh = floor_mesh(1.0, 12);
+    for (Vec3d& p : mesh.positions)
+        p.y = 0.12 * std::sin(5.0 * p.x + p.z) * std::sin(4.0 * p.z - 2.0 * p.x);
+    const std::vector<Vec3> normals = angle_weighted_normals(mesh, triangulate(mesh).triangles);
+    std::vector<SurfacePoint> at_edges, near_edges;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const std::span<const std::uint32_t> face = mesh.face(f);
+        for (std::size_t k = 0; k < 4; ++k)
+            for (const double along : {1e-5, 0.5}) {
+                const auto point = [&](double inward) {
+                    const double w[] = {(1.0 - along) * (1.0 - inward), along * (1.0 - inward), inward};
+                    const std::uint32_t v[] = {face[k], face[(k + 1) % 4], face[(k + 2) % 4]};
+                    Vec3d position(0.0), normal(0.0);
+                    for (int i = 0; i < 3; ++i) {
+                        position += w[i] * mesh.positions[v[i]];
+                        normal += w[i] * Vec3d(normals[v[i]]);
+                    }
+                    return SurfacePoint{position, Vec3(glm::normalize(normal)), f};
+                };
+                at_edges.push_back(point(1e-5));
+                near_edges.push_back(point(0.02));
+            }
+    }
+    const BakeOptions options{.radius = "0.5", .method = "exact", .parameters = {{"rays", 256}}, .pilot = false};
+    const Baked at = bake(mesh, at_edges, options), near = bake(mesh, near_edges, options);
+    for (std::size_t i = 0; i < at_edges.size(); ++i)
+        EXPECT_GT(at.ao()[i], near.ao()[i] - 0.2) << i;
 }
 
 // Each of two distant parts has the same occlusion as when it is baked alone, however large their joint bounding box

@@ -46,13 +46,17 @@ std::size_t corner_at_surfel(const NearFace& face, double offset) {
     return k;
 }
 
+/// Whether a corner is a corner of an own face.
+bool is_corner_of(std::span<const NearFace> own, const Vec3d& corner) {
+    return std::any_of(own.begin(), own.end(), [&](const NearFace& face) {
+        return std::find(face.corners.begin(), face.corners.end(), corner) != face.corners.end();
+    });
+}
+
 /// Whether all corners of a face are corners of own faces. Duplicate polygons may be triangulated differently.
 bool is_duplicate(const NearFace& face, std::span<const NearFace> own) {
-    return std::all_of(face.corners.begin(), face.corners.end(), [&](const Vec3d& corner) {
-        return std::any_of(own.begin(), own.end(), [&](const NearFace& other) {
-            return std::find(other.corners.begin(), other.corners.end(), corner) != other.corners.end();
-        });
-    });
+    return std::all_of(face.corners.begin(), face.corners.end(),
+                       [&](const Vec3d& corner) { return is_corner_of(own, corner); });
 }
 
 /// The ranges of angles around a surfel that are filled by faces in its plane.
@@ -143,10 +147,16 @@ bool is_before(const NearFace& face, std::span<const NearFace> own, const Vec3d&
     });
 }
 
-/// Whether the face continues the surface across a split vertex, such as at a UV seam.
-bool is_continuation(const NearFace& face, const Vec3d& normal, double offset) {
-    constexpr double cosine = 0.7; // 45°
-    return corner_at_surfel(face, offset) < 3 && glm::dot(face.normal, normal) > cosine;
+/// Whether the face continues the surface, and rays that start above the surfel are clear of it: it faces in a similar
+/// direction, or it shares a vertex with own faces that are `behind` it. On a saddle, such faces are in front of each
+/// other's neighbours.
+bool is_continuation(const NearFace& face, std::span<const NearFace> own, bool behind, const Vec3d& normal) {
+    constexpr double similar = 0.7, clear = 0.1; // cosines
+    const double cosine = glm::dot(face.normal, normal);
+    return cosine > similar ||
+           (behind && cosine > clear && std::any_of(face.corners.begin(), face.corners.end(), [&](const Vec3d& corner) {
+                return is_corner_of(own, corner);
+            }));
 }
 
 }
@@ -165,7 +175,7 @@ Contact contact_of(const Vec3& normal, std::span<const NearFace> own, std::span<
             continue;
         }
         if (!sides_of({&face, 1}, n, offset).front || !is_before(face, own, n, offset) ||
-            is_continuation(face, n, offset) || is_duplicate(face, own))
+            is_continuation(face, own, !of_own.front, n) || is_duplicate(face, own))
             continue;
         constexpr double same_plane = 0.99;
         const Vec3d side = of_own.front ? face.normal : -face.normal;

@@ -24,9 +24,9 @@ struct Contact {
 /// The contact of a surfel with `others`, the faces within `offset` of it that are not its `own` faces.
 ///
 /// Another face counts if the surfel's hemisphere can see it, if part of it is in front of an own face, and if it
-/// neither lies in the plane of all own faces nor continues them across a split vertex. The normal of such a face is
-/// added to `away`, pointing to the side on which the own faces lie, or to the front of the face if they lie on both
-/// sides. Faces in one plane count once.
+/// neither lies in the plane of all own faces nor continues them across an edge or a split vertex. The normal of such a
+/// face is added to `away`, pointing to the side on which the own faces lie, or to the front of the face if they lie on
+/// both sides. Faces in one plane count once.
 ///
 /// The surfel is covered if it lies inside a union of faces that are in the plane of all own faces and face the
 /// opposite way. Exact duplicates of own faces count as covering faces only if `between_solids()`: the two sides of a
