@@ -29,6 +29,7 @@ std::optional<Texture> read_png(const std::filesystem::path& file) {
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, file.c_str()))
         return {};
+    const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&png, &png_image_free);
     png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB; // no conversion from linear values
     png.format = PNG_FORMAT_RGBA;           // alpha is ignored: it may be a packed attribute
     Texture texture = texture_of_size(file, png.width, png.height);
