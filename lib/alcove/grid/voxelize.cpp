@@ -45,15 +45,16 @@ Placing place(const Box& box, const Frame& frame, const LevelPlan& plan, const s
     return placing;
 }
 
-/// Positions in voxels of the finest level; 0 for vertices that no face uses, which may be far away.
-HugeVector<Vec3d> index_positions(const Mesh& mesh, const Frame& frame, const Placing& placing) {
+/// Positions in voxels of the finest level; 0 for vertices outside the box of those that faces use.
+HugeVector<Vec3d> index_positions(const Mesh& mesh, const Box& box, const Frame& frame, const Placing& placing) {
     const Vec3d first(placing.first);
-    const std::vector<std::uint8_t> used = mesh.used_vertices();
-    HugeVector<Vec3d> positions(mesh.positions.size(), Vec3d(0.0));
+    HugeVector<Vec3d> positions(mesh.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v)
-            if (used[v])
-                positions[v] = (exact_in_unit(frame, mesh.positions[v]) - placing.origin) / placing.voxel - first;
+        for (std::size_t v = begin; v < end; ++v) {
+            const Vec3d& p = mesh.positions[v];
+            const bool in_box = glm::clamp(p, box.min, box.max) == p;
+            positions[v] = in_box ? (exact_in_unit(frame, p) - placing.origin) / placing.voxel - first : Vec3d(0.0);
+        }
     });
     return positions;
 }
@@ -89,9 +90,10 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     stack.frame = frame_of(box);
     stack.value_unit = value_unit_of(stack.frame);
     stack.lattice = options.grid.lattice;
-    const LevelPlan plan = plan_levels(mesh, triangles, with_voxel_of_lattice(options.grid, stack.frame));
+    const LevelPlan plan = plan_levels(surface_size(mesh, triangles, stack.frame), triangles.size(),
+                                       with_voxel_of_lattice(options.grid, stack.frame));
     const Placing placing = place(box, stack.frame, plan, stack.lattice);
-    const HugeVector<Vec3d> positions = index_positions(mesh, stack.frame, placing);
+    const HugeVector<Vec3d> positions = index_positions(mesh, box, stack.frame, placing);
     // The sign is computed from all triangles, distances only from those that clustering keeps.
     const Surface whole{positions, triangles};
     const WindingColumns columns(positions, triangles);
@@ -161,10 +163,10 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
 }
 
 Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles) {
-    const LevelPlan plan = plan_levels(mesh, triangles, {});
     const Box box = mesh.box();
     const Frame frame = frame_of(box);
-    const HugeVector<Vec3d> positions = index_positions(mesh, frame, place(box, frame, plan, {}));
+    const LevelPlan plan = plan_levels(surface_size(mesh, triangles, frame), triangles.size(), {});
+    const HugeVector<Vec3d> positions = index_positions(mesh, box, frame, place(box, frame, plan, {}));
     std::vector<std::string> warnings;
     return choose_sign(SignChoice::automatic, mesh, WindingColumns(positions, triangles), balanced(triangles),
                        positions, triangles, warnings);

@@ -1,6 +1,7 @@
 #include "alcove/grid/detail/plan.h"
 
 #include "alcove/base/detail/limits.h"
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/detail/messages.h"
 #include "alcove/base/parallel.h"
 #include "alcove/base/types.h"
@@ -89,18 +90,23 @@ std::string too_many(std::size_t triangles, double bytes, const GridOptions& opt
 }
 
 SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles) {
-    const Frame frame = frame_of(mesh.box());
+    return surface_size(mesh, triangles, frame_of(mesh.box()));
+}
+
+SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame) {
     const double scale = 1.0 / frame.diagonal;
     constexpr std::size_t grain = 16384;
     std::vector<SurfaceSize> sums((triangles.size() + grain - 1) / grain);
     parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
         SurfaceSize sum;
-        for (const Triangle& t : triangles.subspan(begin, end - begin)) {
+        for (std::size_t i = begin; i < end; ++i) {
+            prefetch_corners(triangles, i, mesh.positions.data());
+            const Triangle& t = triangles[i];
             const Vec3d& a = mesh.positions[t[0]];
             const Vec3d ab = scale * (mesh.positions[t[1]] - a), ac = scale * (mesh.positions[t[2]] - a);
-            const double longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(ac - ab, ac - ab)});
-            sum.area += 0.5 * glm::length(glm::cross(ab, ac));
-            sum.length += std::sqrt(longest2);
+            const double ab2 = glm::dot(ab, ab), ac2 = glm::dot(ac, ac), cosine = glm::dot(ab, ac);
+            sum.area += 0.5 * std::sqrt(std::max(ab2 * ac2 - cosine * cosine, 0.0)); // Lagrange's identity
+            sum.length += std::sqrt(std::max({ab2, ac2, ab2 + ac2 - 2.0 * cosine}));
         }
         sums[begin / grain] = sum;
     });
@@ -122,10 +128,14 @@ double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOp
 }
 
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options) {
-    const Estimate estimate(surface_size(mesh, triangles), triangles.size(), options);
+    return plan_levels(surface_size(mesh, triangles), triangles.size(), options);
+}
+
+LevelPlan plan_levels(const SurfaceSize& size, std::size_t triangles, const GridOptions& options) {
+    const Estimate estimate(size, triangles, options);
     const double finest = estimate.finest(limit_of(options));
     if (!std::isfinite(finest))
-        throw LimitError(too_many(triangles.size(), estimate.bytes(coarsest_voxel), options));
+        throw LimitError(too_many(triangles, estimate.bytes(coarsest_voxel), options));
     if (options.voxel > 0.0f && options.voxel < finest)
         throw LimitError(fmt::format("a voxel of {} % of the diagonal needs about {} GB, over the limit of {} GB: use "
                                      "--voxel {}% or more, use --voxel auto, or raise --max-memory",

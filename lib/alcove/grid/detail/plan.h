@@ -23,6 +23,8 @@ struct SurfaceSize {
     double length = 0.0; ///< sum of the longest sides, which measures needles
 };
 SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles);
+/// The same if the frame of the mesh's box is known.
+SurfaceSize surface_size(const Mesh& mesh, std::span<const Triangle> triangles, const Frame& frame);
 
 /// Measured peak of resident memory per voxelized triangle, in the search for nearest triangles (130 for solids, 230
 /// for sheets).
@@ -48,6 +50,8 @@ double finest_voxel(const SurfaceSize& size, std::size_t triangles, const GridOp
 /// \throw LimitError if no voxel fits the memory limit, or if the requested one does not fit or takes more than 2^20
 /// voxels along the diagonal; the message then names the finest voxel that fits.
 LevelPlan plan_levels(const Mesh& mesh, std::span<const Triangle> triangles, const GridOptions& options);
+/// The same if the size of the triangles is known.
+LevelPlan plan_levels(const SurfaceSize& size, std::size_t triangles, const GridOptions& options);
 
 /// \throw LimitError if clustering left more triangles than planned, and these do not fit in the memory limit. This
 /// happens with many parts smaller than a voxel, which clustering keeps.
