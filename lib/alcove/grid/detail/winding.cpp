@@ -1,5 +1,6 @@
 #include "alcove/grid/detail/winding.h"
 
+#include "alcove/base/detail/memory.h"
 #include "alcove/base/parallel.h"
 #include "alcove/mesh/mesh.h"
 
@@ -28,6 +29,15 @@ struct Corner { // on the snapping grid
 /// Twice the area of (a, b, p), positive where p is left of a to b.
 std::int64_t left(const Corner& a, const Corner& b, std::int64_t x, std::int64_t y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
+
+/// The cell of the columns that a position is in, as two packed indices. A triangle covers a column only if its corners
+/// are in several cells along both axes, as columns on a side of a cell belong to the cell above, like those in owns().
+std::uint64_t column_cell(const Vec3d& p, double scale, int shift) {
+    const auto cell = [&](double x) {
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(x * scale + 0.5) >> shift);
+    };
+    return is_finite(p) ? cell(p.x) << 32 | cell(p.y) : 0;
 }
 
 /// Exactly one of the two triangles at an edge owns the points on it.
@@ -59,10 +69,17 @@ std::pair<std::int64_t, std::int64_t> covered(const Corner (&corners)[3], std::i
 
 /// Calls `visit(x, y, z)` for each column through a counterclockwise triangle.
 template <class Visit>
-void for_each_covered(const Corner& p, const Corner& q, const Corner& r, std::int64_t one, Visit&& visit) {
-    const auto [x0, x1] = std::minmax({p.x, q.x, r.x});
-    for (std::int64_t x = (x0 + one - 1) / one; x * one <= x1; ++x) {
-        const auto [y0, y1] = covered({p, q, r}, x, one);
+void for_each_covered(const Corner& p, const Corner& q, const Corner& r, int shift, Visit&& visit) {
+    const std::int64_t one = std::int64_t{1} << shift;
+    const auto columns = [&](std::int64_t a, std::int64_t b, std::int64_t c) {
+        const auto [low, high] = std::minmax({a, b, c});
+        return std::pair{(low + one - 1) >> shift, high >> shift};
+    };
+    const auto [x0, x1] = columns(p.x, q.x, r.x);
+    const auto in_box = columns(p.y, q.y, r.y);
+    const bool is_small = in_box.second - in_box.first < 4;
+    for (std::int64_t x = x0; x <= x1; ++x) {
+        const auto [y0, y1] = is_small ? in_box : covered({p, q, r}, x, one);
         for (std::int64_t y = y0; y <= y1; ++y) {
             const std::int64_t at_p = left(q, r, x * one, y * one), at_q = left(r, p, x * one, y * one),
                                at_r = left(p, q, x * one, y * one);
@@ -86,25 +103,27 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
     // Twice the product of two differences stays below 2^63.
     const int shift = 29 - std::ilogb(extent);
     const double scale = std::ldexp(1.0, shift);
-    const std::int64_t one = std::int64_t{1} << shift;
+
+    HugeVector<std::uint64_t> cells(positions.size());
+    parallel_for(positions.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+            cells[v] = column_cell(positions[v], scale, shift);
+    });
 
     std::vector<std::vector<Hit>> hits((triangles.size() + grain - 1) / grain);
     parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
         std::vector<Hit>& out = hits[begin / grain];
         for (std::size_t t = begin; t < end; ++t) {
-            const Vec3d &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
-                        &c = positions[triangles[t][2]];
-            // Snapping moves a corner by half a step.
-            const double slack = 0.5 / scale;
-            // A cast rounds down, as no coordinate is negative, and is faster than a call of floor().
-            const auto crossed = [&](double p, double q, double r) {
-                const auto last = static_cast<double>(static_cast<std::int64_t>(std::max({p, q, r}) + slack));
-                return last >= std::min({p, q, r}) - slack;
-            };
-            if (!crossed(a.x, b.x, c.x) || !crossed(a.y, b.y, c.y))
+            prefetch_corners(triangles, t, cells.data());
+            const auto& [a, b, c] = triangles[t];
+            const std::uint64_t differing = (cells[a] ^ cells[b]) | (cells[a] ^ cells[c]);
+            if (differing >> 32 == 0 || (differing & 0xffffffff) == 0)
                 continue;
-            const auto snapped = [&](const Vec3d& p) {
-                return Corner{std::llround(p.x * scale), std::llround(p.y * scale), p.z};
+            const auto snapped = [&](std::uint32_t v) {
+                const Vec3d& at = positions[v];
+                // A cast rounds down, as no coordinate is negative, and is faster than a call of llround().
+                return Corner{static_cast<std::int64_t>(at.x * scale + 0.5),
+                              static_cast<std::int64_t>(at.y * scale + 0.5), at.z};
             };
             Corner p = snapped(a), q = snapped(b), r = snapped(c);
             const std::int64_t area = left(p, q, r.x, r.y);
@@ -114,7 +133,7 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
                 std::swap(q, r);
             // Going up, the solid begins at faces that point down.
             const std::int32_t turn = area < 0 ? 1 : -1;
-            for_each_covered(p, q, r, one, [&](std::int64_t x, std::int64_t y, double z) {
+            for_each_covered(p, q, r, shift, [&](std::int64_t x, std::int64_t y, double z) {
                 out.push_back({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), z,
                                static_cast<std::uint32_t>(t), turn});
             });
