@@ -1,7 +1,6 @@
 #include "alcove/grid/detail/clustered.h"
 
 #include "alcove/base/parallel.h"
-#include "alcove/mesh/detail/edge_table.h"
 #include "alcove/mesh/detail/weld.h"
 
 #include <algorithm>
@@ -13,25 +12,35 @@ namespace {
 
 constexpr std::size_t grain = 1 << 14;
 
+using Cells = HugeVector<std::uint64_t>;
+
 /// The cube of each vertex, as a packed index.
-HugeVector<std::uint64_t> cells_of(std::span<const Vec3d> positions, double cell) {
-    HugeVector<std::uint64_t> cells(positions.size());
+Cells cells_of(std::span<const Vec3d> positions, double cell) {
+    Cells cells(positions.size());
     parallel_for(positions.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             const Vec3d at = is_finite(positions[v]) ? positions[v] / cell : Vec3d(0.0);
-            cells[v] = static_cast<std::uint64_t>(at.x) << 42 | static_cast<std::uint64_t>(at.y) << 21 |
-                       static_cast<std::uint64_t>(at.z);
+            const auto index = [](double x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(x)); };
+            cells[v] = index(at.x) << 42 | index(at.y) << 21 | index(at.z);
         }
     });
     return cells;
 }
 
-/// Calls `visit(triangle, out)` for each triangle, in parallel blocks; concatenates the outputs in order.
+/// Whether two cubes touch, so that no two points in them are more than 2√3 cells apart. The indices of such cubes
+/// differ by −1, 0 or 1 along each axis. Far cubes might seem to touch if they are 2^21 − 1 cells apart.
+bool touch(std::uint64_t a, std::uint64_t b) {
+    constexpr std::uint64_t one_each = std::uint64_t{1} << 42 | std::uint64_t{1} << 21 | 1;
+    const std::uint64_t difference = a - b + one_each;
+    return ((difference & ~(3 * one_each)) | (difference & difference >> 1 & one_each)) == 0;
+}
+
+/// Calls `visit(index, out)` for each triangle, in parallel blocks; concatenates the outputs in order.
 template <class Visit>
-void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, const Visit& visit) {
-    std::vector<std::vector<Triangle>> blocks((triangles.size() + grain - 1) / grain);
-    parallel_for(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (const Triangle& t : triangles.subspan(begin, end - begin))
+void collect(std::size_t triangles, HugeVector<Triangle>& all, const Visit& visit) {
+    std::vector<std::vector<Triangle>> blocks((triangles + grain - 1) / grain);
+    parallel_for(triangles, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t)
             visit(t, blocks[begin / grain]);
     });
     std::size_t count = 0;
@@ -43,21 +52,23 @@ void collect(std::span<const Triangle> triangles, HugeVector<Triangle>& all, con
 }
 
 /// The sets of vertices that share a cube and are connected within it.
-DisjointSets clusters_of(const Surface& surface, bool is_balanced, double cell) {
-    const HugeVector<std::uint64_t> cells = cells_of(surface.positions, cell);
+DisjointSets clusters_of(const Surface& surface, const Cells& cells, bool is_balanced) {
     DisjointSets clusters(cells.size());
     if (!is_balanced) { // otherwise seams would open
         const std::vector<std::uint32_t> first = weld(surface.positions);
         for (std::uint32_t v = 0; v < first.size(); ++v)
             clusters.join(v, first[v]);
     }
-    // Edges of a balanced surface have both directions: only one is visited. The bitwise operators give a single
-    // branch, which is rarely mispredicted.
+    // Edges of a balanced surface have both directions: only one is visited. The arithmetic gives a single branch.
+    const std::uint64_t either_way = is_balanced ? 0 : 1;
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        if (((a < b) | !is_balanced) & (cells[a] == cells[b]) & !clusters.surely_joined(a, b))
+        const std::uint64_t forward = (std::uint64_t{a} - b) >> 63, apart = cells[a] ^ cells[b];
+        if ((forward | either_way) & (apart - 1) >> 63 & std::uint64_t{!clusters.surely_joined(a, b)})
             clusters.join(a, b);
     };
-    for (const auto& [a, b, c] : surface.triangles) {
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        prefetch_corners(surface.triangles, t, cells.data());
+        const auto& [a, b, c] = surface.triangles[t];
         join(a, b);
         join(b, c);
         join(c, a);
@@ -68,23 +79,28 @@ DisjointSets clusters_of(const Surface& surface, bool is_balanced, double cell) 
 }
 
 ClusteredSurface::ClusteredSurface(const Surface& surface, bool is_balanced, double cell) {
-    const std::vector<std::uint32_t> cluster_of = merge(surface, is_balanced, cell);
-    const auto renamed = [&](const Triangle& t) {
-        return Triangle{cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]};
-    };
-    const auto is_triangle = [](const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; };
+    const Cells cells = cells_of(surface.positions, cell);
+    const std::vector<std::uint32_t> cluster_of = merge(surface.positions, clusters_of(surface, cells, is_balanced));
     const double far2 = 12.0 * cell * cell; // twice the diagonal of a cube, squared
-    const auto far = [&](std::uint32_t a, std::uint32_t b) {
-        const Vec3d offset = positions_[a] - positions_[b];
-        return a != b && glm::dot(offset, offset) > far2;
+    const auto far = [&](std::uint32_t v, std::uint32_t w) {
+        const Vec3d offset = positions_[cluster_of[v]] - positions_[cluster_of[w]];
+        return glm::dot(offset, offset) > far2;
     };
-    const auto is_strut = [&](const Triangle& t) { return far(t[0], t[1]) || far(t[1], t[2]); }; // if collapsed
+    const auto is_strut = [&](const Triangle& t) { // if collapsed
+        const bool is_short = touch(cells[t[0]], cells[t[1]]) & touch(cells[t[1]], cells[t[2]]);
+        return !is_short && (far(t[0], t[1]) || far(t[1], t[2]));
+    };
     std::atomic<bool> any_strut{false};
-    collect(surface.triangles, triangles_, [&](const Triangle& t, std::vector<Triangle>& kept) {
-        const Triangle now = renamed(t);
-        if (is_triangle(now))
-            kept.push_back(now);
-        else if (is_strut(now))
+    const auto collapses = [&](const Triangle& t) {
+        const std::uint32_t a = cluster_of[t[0]], b = cluster_of[t[1]], c = cluster_of[t[2]];
+        return (a == b) | (b == c) | (c == a);
+    };
+    collect(surface.triangles.size(), triangles_, [&](std::size_t i, std::vector<Triangle>& kept) {
+        prefetch_corners(surface.triangles, i, cluster_of.data());
+        const Triangle& t = surface.triangles[i];
+        if (!collapses(t))
+            kept.push_back({cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]});
+        else if (is_strut(t))
             any_strut = true;
     });
 
@@ -95,11 +111,12 @@ ClusteredSurface::ClusteredSurface(const Surface& surface, bool is_balanced, dou
             unused[v] = 0;
     if (!any_strut && std::find(unused.begin(), unused.end(), 1) == unused.end())
         return;
+    std::vector<std::uint8_t> bare = huge_vector<std::uint8_t>(cluster_of.size()); // vertices of unused clusters
+    std::transform(cluster_of.begin(), cluster_of.end(), bare.begin(), [&](std::uint32_t v) { return unused[v]; });
     HugeVector<Triangle> uncovered;
-    collect(surface.triangles, uncovered, [&](const Triangle& t, std::vector<Triangle>& kept) {
-        const Triangle now = renamed(t);
-        const auto& [a, b, c] = now;
-        if (!is_triangle(now) && ((unused[a] | unused[b] | unused[c]) != 0 || is_strut(now)))
+    collect(surface.triangles.size(), uncovered, [&](std::size_t i, std::vector<Triangle>& kept) {
+        const Triangle& t = surface.triangles[i];
+        if ((bare[t[0]] | bare[t[1]] | bare[t[2]]) != 0 || (any_strut && collapses(t) && is_strut(t)))
             kept.push_back(t);
     });
     positions_.reserve(positions_.size() + 3 * uncovered.size());
@@ -113,20 +130,19 @@ ClusteredSurface::ClusteredSurface(const Surface& surface, bool is_balanced, dou
 }
 
 /// Returns the index of each vertex's cluster.
-std::vector<std::uint32_t> ClusteredSurface::merge(const Surface& surface, bool is_balanced, double cell) {
-    DisjointSets clusters = clusters_of(surface, is_balanced, cell);
-    std::vector<std::uint32_t> cluster_of = huge_vector<std::uint32_t>(surface.positions.size());
+std::vector<std::uint32_t> ClusteredSurface::merge(std::span<const Vec3d> positions, DisjointSets clusters) {
+    std::vector<std::uint32_t> cluster_of = huge_vector<std::uint32_t>(positions.size());
     std::vector<double> counts;
     positions_.reserve(cluster_of.size()); // untouched capacity costs nothing
     for (std::uint32_t v = 0; v < cluster_of.size(); ++v) {
         const std::uint32_t first = clusters.find(v);
         if (first == v) {
             cluster_of[v] = static_cast<std::uint32_t>(counts.size());
-            positions_.push_back(surface.positions[v]);
+            positions_.push_back(positions[v]);
             counts.push_back(1.0);
         } else {
             cluster_of[v] = cluster_of[first];
-            positions_[cluster_of[v]] += surface.positions[v];
+            positions_[cluster_of[v]] += positions[v];
             counts[cluster_of[v]] += 1.0;
         }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "alcove/base/detail/memory.h"
+#include "alcove/mesh/detail/edge_table.h"
 #include "alcove/mesh/mesh.h"
 
 #include <span>
@@ -32,7 +33,7 @@ class ClusteredSurface {
     Surface surface() const { return {positions_, triangles_}; }
 
   private:
-    std::vector<std::uint32_t> merge(const Surface& surface, bool is_balanced, double cell);
+    std::vector<std::uint32_t> merge(std::span<const Vec3d> positions, DisjointSets clusters);
 
     HugeVector<Vec3d> positions_;
     HugeVector<Triangle> triangles_;

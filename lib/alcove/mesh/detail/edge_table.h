@@ -72,12 +72,19 @@ class DisjointSets {
     /// A fast test: if true, both numbers are in one set; if false, they may be in one set or not.
     bool surely_joined(std::uint32_t a, std::uint32_t b) const { return parent_[a] == parent_[b]; }
     void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
+        const std::uint32_t of_a = root(a), of_b = root(b);
+        parent_[of_a] = parent_[of_b] = parent_[a] = parent_[b] = std::min(of_a, of_b);
     }
 
   private:
+    /// Most parents are roots, so the number of iterations is easy to predict.
+    std::uint32_t root(std::uint32_t i) const {
+        i = parent_[i];
+        while (parent_[i] != i)
+            i = parent_[i];
+        return i;
+    }
+
     std::vector<std::uint32_t> parent_;
 };
 
