@@ -45,18 +45,27 @@ Placing place(const Box& box, const Frame& frame, const LevelPlan& plan, const s
     return placing;
 }
 
-/// Positions in voxels of the finest level; 0 for vertices outside the box of those that faces use.
+/// A position in voxels of the finest level.
+Vec3d index_position(const Vec3d& scene, const Frame& frame, const Placing& placing) {
+    return (exact_in_unit(frame, scene) - placing.origin) / placing.voxel - Vec3d(placing.first);
+}
+
+/// The positions of the vertices; 0 for those outside the box of the vertices that faces use.
 HugeVector<Vec3d> index_positions(const Mesh& mesh, const Box& box, const Frame& frame, const Placing& placing) {
-    const Vec3d first(placing.first);
     HugeVector<Vec3d> positions(mesh.positions.size());
     parallel_for(positions.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             const Vec3d& p = mesh.positions[v];
             const bool in_box = glm::clamp(p, box.min, box.max) == p;
-            positions[v] = in_box ? (exact_in_unit(frame, p) - placing.origin) / placing.voxel - first : Vec3d(0.0);
+            positions[v] = in_box ? index_position(p, frame, placing) : Vec3d(0.0);
         }
     });
     return positions;
+}
+
+/// `most` is the position of the upper corner of their box.
+WindingColumns columns_of(std::span<const Vec3d> positions, std::span<const Triangle> triangles, const Vec3d& most) {
+    return {positions, triangles, std::max({most.x, most.y, 1.0})};
 }
 
 GridOptions with_voxel_of_lattice(GridOptions options, const Frame& frame) {
@@ -96,7 +105,7 @@ GridStack voxelize(const Mesh& mesh, std::span<const Triangle> triangles, const 
     const HugeVector<Vec3d> positions = index_positions(mesh, box, stack.frame, placing);
     // The sign is computed from all triangles, distances only from those that clustering keeps.
     const Surface whole{positions, triangles};
-    const WindingColumns columns(positions, triangles);
+    const WindingColumns columns = columns_of(positions, triangles, index_position(box.max, stack.frame, placing));
     const bool is_balanced = balanced(triangles);
     std::optional<ClusteredSurface> clustered;
     if (plan.cluster) {
@@ -166,10 +175,11 @@ Sign sign_of(const Mesh& mesh, std::span<const Triangle> triangles) {
     const Box box = mesh.box();
     const Frame frame = frame_of(box);
     const LevelPlan plan = plan_levels(surface_size(mesh, triangles, frame), triangles.size(), {});
-    const HugeVector<Vec3d> positions = index_positions(mesh, box, frame, place(box, frame, plan, {}));
+    const Placing placing = place(box, frame, plan, {});
+    const HugeVector<Vec3d> positions = index_positions(mesh, box, frame, placing);
+    const WindingColumns columns = columns_of(positions, triangles, index_position(box.max, frame, placing));
     std::vector<std::string> warnings;
-    return choose_sign(SignChoice::automatic, mesh, WindingColumns(positions, triangles), balanced(triangles),
-                       positions, triangles, warnings);
+    return choose_sign(SignChoice::automatic, mesh, columns, balanced(triangles), positions, triangles, warnings);
 }
 
 }

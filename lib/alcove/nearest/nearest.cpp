@@ -141,7 +141,7 @@ class BrickSearch {
     // Up to this many leaves, measuring all of them costs less than filtering them first. Measured on a scan with 1
     // to 28 triangles per voxel. Inner nodes can contain far more: on the coarsest levels, a few contain the whole
     // surface.
-    static constexpr std::size_t few_leaves = 32;
+    static constexpr std::size_t few_leaves = 24;
 
     bool are_few_leaves(std::span<const std::uint32_t> nodes) const {
         return nodes.size() <= few_leaves &&

@@ -17,9 +17,10 @@ using Cells = HugeVector<std::uint64_t>;
 /// The cube of each vertex, as a packed index.
 Cells cells_of(std::span<const Vec3d> positions, double cell) {
     Cells cells(positions.size());
+    const double per_cell = 1.0 / cell;
     parallel_for(positions.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const Vec3d at = is_finite(positions[v]) ? positions[v] / cell : Vec3d(0.0);
+            const Vec3d at = is_finite(positions[v]) ? per_cell * positions[v] : Vec3d(0.0);
             const auto index = [](double x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(x)); };
             cells[v] = index(at.x) << 42 | index(at.y) << 21 | index(at.z);
         }
@@ -35,13 +36,19 @@ bool touch(std::uint64_t a, std::uint64_t b) {
     return ((difference & ~(3 * one_each)) | (difference & difference >> 1 & one_each)) == 0;
 }
 
-/// Calls `visit(index, out)` for each triangle, in parallel blocks; concatenates the outputs in order.
+/// 1 if x is 0, and 0 if it is less than 2^63. Compilers often turn several comparisons into as many branches, which
+/// are mispredicted.
+std::uint64_t one_if_zero(std::uint64_t x) {
+    return (x - 1) >> 63;
+}
+
+/// Calls `visit(i, out)` for each number below `count_of_all`, in parallel blocks; concatenates the outputs in order.
 template <class Visit>
-void collect(std::size_t triangles, HugeVector<Triangle>& all, const Visit& visit) {
-    std::vector<std::vector<Triangle>> blocks((triangles + grain - 1) / grain);
-    parallel_for(triangles, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t)
-            visit(t, blocks[begin / grain]);
+void collect(std::size_t count_of_all, HugeVector<Triangle>& all, const Visit& visit) {
+    std::vector<std::vector<Triangle>> blocks((count_of_all + grain - 1) / grain);
+    parallel_for(count_of_all, grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            visit(i, blocks[begin / grain]);
     });
     std::size_t count = 0;
     for (const std::vector<Triangle>& block : blocks)
@@ -51,28 +58,35 @@ void collect(std::size_t triangles, HugeVector<Triangle>& all, const Visit& visi
         all.insert(all.end(), block.begin(), block.end());
 }
 
-/// The sets of vertices that share a cube and are connected within it.
-DisjointSets clusters_of(const Surface& surface, const Cells& cells, bool is_balanced) {
+/// The sets of vertices that share a cube and are connected within it. Collects the triangles that are not within one
+/// cube in `across`.
+DisjointSets clusters_of(const Surface& surface, const Cells& cells, bool is_balanced,
+                         HugeVector<std::uint32_t>& across) {
     DisjointSets clusters(cells.size());
     if (!is_balanced) { // otherwise seams would open
         const std::vector<std::uint32_t> first = weld(surface.positions);
         for (std::uint32_t v = 0; v < first.size(); ++v)
             clusters.join(v, first[v]);
     }
-    // Edges of a balanced surface have both directions: only one is visited. The arithmetic gives a single branch.
+    // Edges of a balanced surface have both directions: only one is visited.
     const std::uint64_t either_way = is_balanced ? 0 : 1;
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
-        const std::uint64_t forward = (std::uint64_t{a} - b) >> 63, apart = cells[a] ^ cells[b];
-        if ((forward | either_way) & (apart - 1) >> 63 & std::uint64_t{!clusters.surely_joined(a, b)})
+        const std::uint64_t forward = (std::uint64_t{a} - b) >> 63;
+        if ((forward | either_way) & one_if_zero(cells[a] ^ cells[b]) & std::uint64_t{!clusters.surely_joined(a, b)})
             clusters.join(a, b);
     };
+    across.resize(surface.triangles.size());
+    std::size_t count = 0;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         prefetch_corners(surface.triangles, t, cells.data());
         const auto& [a, b, c] = surface.triangles[t];
         join(a, b);
         join(b, c);
         join(c, a);
+        across[count] = static_cast<std::uint32_t>(t);
+        count += ((cells[a] ^ cells[b]) | (cells[a] ^ cells[c])) != 0;
     }
+    across.resize(count);
     return clusters;
 }
 
@@ -80,7 +94,9 @@ DisjointSets clusters_of(const Surface& surface, const Cells& cells, bool is_bal
 
 ClusteredSurface::ClusteredSurface(const Surface& surface, bool is_balanced, double cell) {
     const Cells cells = cells_of(surface.positions, cell);
-    const std::vector<std::uint32_t> cluster_of = merge(surface.positions, clusters_of(surface, cells, is_balanced));
+    HugeVector<std::uint32_t> across;
+    const std::vector<std::uint32_t> cluster_of =
+        merge(surface.positions, clusters_of(surface, cells, is_balanced, across));
     const double far2 = 12.0 * cell * cell; // twice the diagonal of a cube, squared
     const auto far = [&](std::uint32_t v, std::uint32_t w) {
         const Vec3d offset = positions_[cluster_of[v]] - positions_[cluster_of[w]];
@@ -93,11 +109,11 @@ ClusteredSurface::ClusteredSurface(const Surface& surface, bool is_balanced, dou
     std::atomic<bool> any_strut{false};
     const auto collapses = [&](const Triangle& t) {
         const std::uint32_t a = cluster_of[t[0]], b = cluster_of[t[1]], c = cluster_of[t[2]];
-        return (a == b) | (b == c) | (c == a);
+        return (one_if_zero(a ^ b) | one_if_zero(b ^ c) | one_if_zero(c ^ a)) != 0;
     };
-    collect(surface.triangles.size(), triangles_, [&](std::size_t i, std::vector<Triangle>& kept) {
-        prefetch_corners(surface.triangles, i, cluster_of.data());
-        const Triangle& t = surface.triangles[i];
+    collect(across.size(), triangles_, [&](std::size_t i, std::vector<Triangle>& kept) {
+        prefetch_corners(surface.triangles, across[i], cluster_of.data(), cells.data());
+        const Triangle& t = surface.triangles[across[i]];
         if (!collapses(t))
             kept.push_back({cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]});
         else if (is_strut(t))

@@ -93,13 +93,20 @@ void for_each_covered(const Corner& p, const Corner& q, const Corner& r, int shi
     }
 }
 
-}
-
-WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles) {
+double extent_of(std::span<const Vec3d> positions) {
     double extent = 1.0;
     for (const Vec3d& p : positions)
         if (is_finite(p))
             extent = std::max({extent, p.x, p.y});
+    return extent;
+}
+
+}
+
+WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles)
+    : WindingColumns(positions, triangles, extent_of(positions)) {}
+
+WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles, double extent) {
     // Twice the product of two differences stays below 2^63.
     const int shift = 29 - std::ilogb(extent);
     const double scale = std::ldexp(1.0, shift);

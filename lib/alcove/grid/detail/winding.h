@@ -22,6 +22,8 @@ class WindingColumns {
     /// `positions` are in index space, with no coordinate below 0. Pass all triangles, even those without area: they
     /// close gaps between their neighbours.
     WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles);
+    /// The same if no finite coordinate x or y exceeds `extent`, which is at least 1.
+    WindingColumns(std::span<const Vec3d> positions, std::span<const Triangle> triangles, double extent);
 
     /// Of the columns with crossings, the share whose crossings do not cancel: 0 for a closed surface.
     double leaking() const;
