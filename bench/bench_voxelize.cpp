@@ -1,10 +1,11 @@
 /// Measures the cost of converting an indexed mesh to an OpenVDB level set with a band of five voxels on both sides: by
 /// voxelize(), and for comparison by openvdb::tools::meshToVolume with its default flags. The meshes are a scan of
-/// 26,002 vertices, and its subdivisions with 104,002 and 416,002. Compare CPU times; with two threads, compare real
-/// times.
+/// 26,002 vertices, and its subdivisions with 104,002 and 416,002. Also measures the cost of the field of clustered
+/// triangles. Compare CPU times; with two threads, compare real times.
 ///
 ///     build/bench/bench_voxelize --benchmark_enable_random_interleaving=true --benchmark_repetitions=5
 #include "alcove/base/parallel.h"
+#include "alcove/field/level_stack.h"
 #include "alcove/grid/voxelize.h"
 #include "openvdb_peer.h"
 
@@ -39,6 +40,21 @@ void ours_far(benchmark::State& state) {
         benchmark::DoNotOptimize(voxelize(s.mesh, s.triangles, far));
 }
 
+/// From triangles to the field, with clusters where triangles are far smaller than voxels.
+void ours_clustered(benchmark::State& state) {
+    const Scan& s = scan(state.range(0));
+    const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
+    VoxelizeOptions coarse;
+    coarse.grid.voxel = 1.0f / static_cast<float>(state.range(1));
+    coarse.grid.radius = 4.0f * coarse.grid.voxel; // one level
+    coarse.grid.cluster = true;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(LevelStack(voxelize(s.mesh, s.triangles, coarse)));
+    state.counters["per_triangle"] =
+        benchmark::Counter(static_cast<double>(s.triangles.size()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 void openvdb_mesh_to_volume(benchmark::State& state) {
     const OpenVdbMesh mesh(scan(state.range(0)));
     const ThreadLimit limit(static_cast<unsigned>(state.range(2)));
@@ -58,6 +74,11 @@ void all_sizes(benchmark::internal::Benchmark* bench) {
 BENCHMARK(ours)->Apply(all_sizes);
 BENCHMARK(ours_far)->Apply(all_sizes);
 BENCHMARK(openvdb_mesh_to_volume)->Apply(all_sizes);
+BENCHMARK(ours_clustered)
+    ->ArgNames({"level", "voxels", "threads"})
+    ->ArgsProduct({{2}, {64, 128}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 
 }
 
