@@ -31,12 +31,17 @@ std::int64_t left(const Corner& a, const Corner& b, std::int64_t x, std::int64_t
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
+/// The nearest step of the snapping grid. A cast rounds down, as no coordinate is negative, and is faster than a call of
+/// llround().
+std::int64_t snapped(double coordinate, double scale) {
+    constexpr double half_step = 0.5;
+    return static_cast<std::int64_t>(coordinate * scale + half_step);
+}
+
 /// The cell of the columns that a position is in, as two packed indices. A triangle covers a column only if its corners
 /// are in several cells along both axes, as columns on a side of a cell belong to the cell above, like those in owns().
 std::uint64_t column_cell(const Vec3d& p, double scale, int shift) {
-    const auto cell = [&](double x) {
-        return static_cast<std::uint64_t>(static_cast<std::int64_t>(x * scale + 0.5) >> shift);
-    };
+    const auto cell = [&](double x) { return static_cast<std::uint64_t>(snapped(x, scale) >> shift); };
     return is_finite(p) ? cell(p.x) << 32 | cell(p.y) : 0;
 }
 
@@ -124,15 +129,13 @@ WindingColumns::WindingColumns(std::span<const Vec3d> positions, std::span<const
             prefetch_corners(triangles, t, cells.data());
             const auto& [a, b, c] = triangles[t];
             const std::uint64_t differing = (cells[a] ^ cells[b]) | (cells[a] ^ cells[c]);
-            if (differing >> 32 == 0 || (differing & 0xffffffff) == 0)
+            const std::uint64_t along_x = differing >> 32, along_y = differing & 0xffffffff;
+            if (((along_x - 1) | (along_y - 1)) >> 63) // one is 0; a single branch is mispredicted less often
                 continue;
-            const auto snapped = [&](std::uint32_t v) {
-                const Vec3d& at = positions[v];
-                // A cast rounds down, as no coordinate is negative, and is faster than a call of llround().
-                return Corner{static_cast<std::int64_t>(at.x * scale + 0.5),
-                              static_cast<std::int64_t>(at.y * scale + 0.5), at.z};
+            const auto corner = [&](const Vec3d& at) {
+                return Corner{snapped(at.x, scale), snapped(at.y, scale), at.z};
             };
-            Corner p = snapped(a), q = snapped(b), r = snapped(c);
+            Corner p = corner(positions[a]), q = corner(positions[b]), r = corner(positions[c]);
             const std::int64_t area = left(p, q, r.x, r.y);
             if (area == 0)
                 continue;
