@@ -80,7 +80,8 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
         if (unbalanced)
             open[face] = 1;
         for (const EdgeUse& use : uses.subspan(1))
-            components.join(face, faces.face_of[use.corner]);
+            if (const std::uint32_t other = faces.face_of[use.corner]; !components.surely_joined(face, other))
+                components.join(face, other);
     });
 
     const Frame frame = frame_of(mesh.box());
@@ -92,14 +93,15 @@ Closedness closedness_of(const Mesh& mesh, const Surface& surface) {
     std::vector<std::uint32_t> part_of = huge_vector<std::uint32_t>(faces.count());
     for (std::uint32_t f = 0; f < faces.count(); ++f) {
         const std::uint32_t first = components.find(f); // the smallest of its set, so the set has a number
-        if (first == f) {
-            part_of[f] = static_cast<std::uint32_t>(parts.size());
+        if (first == f)
             parts.emplace_back();
-        }
-        Component& part = parts[part_of[first]];
+        part_of[f] = first == f ? static_cast<std::uint32_t>(parts.size() - 1) : part_of[first];
+        Component& part = parts[part_of[f]];
         part.open = part.open || open[f];
-        part.volume.add(mesh, frame, faces.face(f));
     }
+    for (std::uint32_t f = 0; f < faces.count(); ++f)
+        if (Component& part = parts[part_of[f]]; !part.open)
+            part.volume.add(mesh, frame, faces.face(f));
     double volume = 0.0;
     result.components = parts.size();
     for (const Component& part : parts)
