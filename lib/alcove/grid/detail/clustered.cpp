@@ -78,7 +78,7 @@ DisjointSets clusters_of(const Surface& surface, const Cells& cells, bool is_bal
     across.resize(surface.triangles.size());
     std::size_t count = 0;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        prefetch_corners(surface.triangles, t, cells.data());
+        prefetch_corners(surface.triangles, t, cells.data(), clusters.data());
         const auto& [a, b, c] = surface.triangles[t];
         join(a, b);
         join(b, c);

@@ -64,6 +64,7 @@ class DisjointSets {
   public:
     explicit DisjointSets(std::size_t count);
     std::size_t size() const { return parent_.size(); }
+    const std::uint32_t* data() const { return parent_.data(); } ///< one value per number, to be prefetched
     std::uint32_t find(std::uint32_t i) {
         while (parent_[i] != i)
             i = parent_[i] = parent_[parent_[i]];
