@@ -241,9 +241,10 @@ class MapBake {
             SurfacePoints points = projection_ ? points_of(projected) : points_of_samples();
             if (sparse_error_ > 0.0f)
                 points.more = [&](std::span<const float> ao) { return interpolate(ao, between); };
-            // The pilot misses the errors of interpolated texels and some texels of small islands, so plan for less
-            // error.
-            points.error_share = 0.93;
+            // In small maps, errors exceed what the pilot measures, as it sees few texels of each island.
+            const bool is_dense = std::any_of(tiles_.begin() + static_cast<std::ptrdiff_t>(finished_), tiles_.end(),
+                                              [](const OpenTile& tile) { return tile.stride > 1; });
+            points.error_share = is_dense ? 1.0 : 0.93;
             Baked baked;
             if (!bake_.attributes.empty())
                 baked = bake_points(surface(), points, bake_);
