@@ -5,6 +5,7 @@
 #include "alcove/bake/detail/pilot.h"
 #include "alcove/occlusion/catalog.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct PlanRequest {
     double allowed_seconds = 0.3;
     bool has_grid = false; ///< a grid with the default GridOptions::largest_voxel exists anyway, at no extra cost
     ChannelSet wanted = Channel::ao;
+    /// The largest expected RMSE of calibrated. Interpolation between surfels averages the noise of rays, but not the
+    /// errors of calibrated.
+    double largest_of_calibrated = std::numeric_limits<double>::infinity();
 };
 
 /// A method and its grid, with their expected error and cost.

@@ -196,6 +196,8 @@ class TargetBake {
         PlanRequest some = request;
         some.surfels = static_cast<std::size_t>(usual_share * surfels);
         some.contacts = static_cast<std::size_t>(usual_share * static_cast<double>(request.contacts));
+        if (!task_.method)
+            some.largest_of_calibrated = 0.85 * request.error;
         Planner planner(some, pilot);
         constexpr double very_many_surfels = 1e6;
         const std::size_t stride = surfels < very_many_surfels ? 16 : 64;
