@@ -75,8 +75,9 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
     CLI::Option* via =
         add_choice<Via>(
             app, "--via", bake.via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}},
-            "Methods to choose from. grid: methods that use level sets, plus exact rays only where level sets "
-            "would cost far more; auto: all; mesh: exact rays")
+            "Methods to choose from. grid: methods that use level sets, or exact rays if level sets would cost far "
+            "more, "
+            "miss the error, are too coarse for the radius, or do not fit in memory; auto: all; mesh: exact rays")
             ->type_name("NAME")
             ->default_str("grid");
     app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error target is not met");
@@ -108,7 +109,7 @@ void add_surface(CLI::App& app, BakeVerb& verb) {
          {"area", NormalSource::area}},
         "file: the file's normals; angle, area: means of the face normals, weighted by the angle of each face at the "
         "vertex, or by its area; auto: the file's normals if it has any, else angle (in texture maps, "
-        "edges sharper than 40 degrees stay hard)")
+        "edges whose face normals differ by more than 40 degrees stay hard)")
         ->type_name("SOURCE")
         ->default_str("auto");
     add_weld_option(app, verb.bake.weld);
@@ -167,8 +168,8 @@ void add_colors(CLI::App& app, BakeVerb& verb) {
         app, "--color", verb.add.color,
         {{"ao", ColorUse::ao}, {"multiply", ColorUse::multiply}, {"none", ColorUse::none}},
         "ao: also write ao as vertex colours and as the attribute `quality`; multiply: multiply the vertex colours of "
-        "the input by ao; "
-        "none: do neither. Default: ao, unless the input has vertex colours or an attribute `quality` of its own")
+        "the input by ao; none: do neither. Default: ao, or none if the input has vertex colours or an attribute "
+        "`quality` of its own")
         ->type_name("WHAT");
     add_choice<ColorEncoding>(app, "--color-encoding", verb.add.encoding,
                               {{"srgb", ColorEncoding::srgb}, {"raw", ColorEncoding::raw}},

@@ -95,7 +95,7 @@ bool is_map(const std::string& output) {
 void add_map_options(CLI::App& verb, MapRequest& request) {
     add_choice<bool>(verb, "--into", request.into_texture, {{"vertices", false}, {"texture", true}},
                      "Where to store the values in a glb or gltf. vertices: at its vertices; texture: in one occlusion "
-                     "texture per material, using one of the UV sets of the file, one without overlaps")
+                     "texture per material, using a UV set of the file that has no overlaps")
         ->type_name("WHERE")
         ->default_str("vertices");
     verb.add_flag(

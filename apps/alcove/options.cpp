@@ -69,7 +69,8 @@ void add_limits(CLI::App& verb) {
             ->type_name("SIZE");
     };
     add("--max-memory", limit_memory,
-        "Memory for level sets and images: 2GB, 500MB, 1.5GiB. Default: half of the machine's memory");
+        "Limit on memory for level sets and images, for example 2GB, 500MB or 1.5GiB. Default: half of the machine's "
+        "memory");
     add("--max-read", limit_reading,
         "Largest file to read; a pipe that delivers more is refused. Default: half of --max-memory, at most 4GB");
 }
@@ -131,8 +132,8 @@ void add_run_options(CLI::App& verb, CommonOptions& options) {
         ->option_text("MODE");
     verb.add_option_function<double>(
             "--time-limit", [](const double& seconds) { limit_time(seconds); },
-            "Stop after this many seconds with exit code 1 and leave files unchanged; a bake or image that would "
-            "clearly take longer is refused, and the message names settings that stay within the limit")
+            "Stop after this many seconds with exit code 1, without writing unfinished files; a bake or image that "
+            "would clearly take longer is refused, and the message names settings that stay within the limit")
         ->check(parsable([](const std::string& text) {
             char* end = nullptr;
             const double seconds = std::strtod(text.c_str(), &end);

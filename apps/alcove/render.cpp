@@ -244,8 +244,8 @@ void add_render(CLI::App& program) {
     add_image_options(*verb, options->image);
     verb->add_option(
             "--frames", options->frames,
-            "Turntable: N images around the object, with the frame number inserted before the extension; existing "
-            "images are not rendered again")
+            "Turntable: N views from around the object; the frame number is inserted before the extension of the "
+            "file name, and existing images are not rendered again")
         ->type_name("N")
         ->check(CLI::Range(1, 100000));
     add_common_options(*verb, options->common);

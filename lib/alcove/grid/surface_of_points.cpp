@@ -106,7 +106,7 @@ PointSurface surface_of_points(const Mesh& points, const PointOptions& options) 
         static_cast<std::size_t>(std::count_if(cloud.points.begin(), cloud.points.end(), [&](const CloudPoint& point) {
             return result.normals[point.source] == Vec3(0.0f);
         }));
-    constexpr std::size_t few = 100; // one in a hundred is normal at borders and corners
+    constexpr std::size_t few = 100; // at borders and corners, losing one point in a hundred is to be expected
     if (lost > cloud.points.size() / few)
         warnings.push_back(counted(lost, "point has", "points have") +
                            " no surface and got ao = 1: their neighbours are too far away; give a larger --point-size");

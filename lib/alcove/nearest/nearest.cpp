@@ -138,8 +138,8 @@ class BrickSearch {
         }
     }
 
-    // Up to this many leaves, measuring all of them costs less than filtering them first. Measured on a scan with 1
-    // to 28 triangles per voxel. Inner nodes can contain far more: on the coarsest levels, a few contain the whole
+    // Up to this many leaves, computing the distances to all of them costs less than filtering them first (measured on
+    // a scan with 1 to 28 triangles per voxel). Inner nodes do not count, as a few of the coarsest contain the whole
     // surface.
     static constexpr std::size_t few_leaves = 24;
 

@@ -105,7 +105,8 @@ bool CornerTree::overlaps(const Bounds& bounds, const std::array<glm::dvec2, 3>&
     const glm::dvec2 low = glm::min(glm::min(a, b), c) - rounding, high = glm::max(glm::max(a, b), c) + rounding;
     if (low.x > bounds.max.x || low.y > bounds.max.y || high.x < bounds.min.x || high.y < bounds.min.y)
         return false;
-    // Whether the box reaches the left of a side: the corner of the box that is farthest to the left decides.
+    // Whether the box extends to the left of a side of the triangle; the corner of the box farthest to the left
+    // decides.
     const auto reaches = [&bounds](const glm::dvec2& from, const glm::dvec2& to) {
         const glm::dvec2 corner{to.y >= from.y ? bounds.min.x : bounds.max.x,
                                 to.x >= from.x ? bounds.max.y : bounds.min.y};

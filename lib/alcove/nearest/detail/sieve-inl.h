@@ -80,8 +80,8 @@ inline constexpr float down_to_leaves = -1.0f;
 /// Selects the nodes that some octant or voxel needs.
 class Sieve {
   public:
-    /// `mask_of(node)` returns one bit per octant or voxel that needs a node. Inner nodes of a radius above
-    /// `largest` are replaced by their children.
+    /// `mask_of(node)` returns a mask with one bit set for each octant or voxel that needs the node. Inner nodes whose
+    /// radius exceeds `largest` are replaced by their children.
     template <class MaskOf>
     HWY_INLINE void sift(const TriangleTree& tree, std::span<const std::uint32_t> nodes, float largest,
                          const MaskOf& mask_of) {

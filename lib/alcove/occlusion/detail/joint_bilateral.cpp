@@ -119,7 +119,7 @@ void JointBilateral::shoot(const RaySurface& surface, std::size_t begin, std::si
         }
     }
     flush();
-    // Filter only how the mean direction deviates from that of an unoccluded surfel, which points along the normal.
+    // Filter only the deviation of the mean direction from the normal, the mean direction of an unoccluded surfel.
     for (std::size_t i = begin; with_bent_ && i < end; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)
             columns_[bent + axis][i] -= open_length * columns_[ao][i] * columns_[normal + axis][i];

@@ -202,8 +202,8 @@ class GltfReader {
             white);
     }
 
-    /// Appends the values of new vertices to those of the first `first` vertices. If only one of the two groups has
-    /// values, the other gets `missing`.
+    /// Appends the values of new vertices to those of the vertices before index `first`. If only one of the two groups
+    /// has values, the other gets `missing`.
     template <class T, class Convert>
     void add_values(std::vector<T>& values, std::size_t first, const GltfArray<float>& floats, std::size_t components,
                     const Convert& convert, const T& missing = T(0.0f)) {

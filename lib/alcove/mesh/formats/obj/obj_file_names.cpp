@@ -48,7 +48,7 @@ class NameMover {
     }
 
   private:
-    /// Rewrites the names on a line. A name consists of as many tokens as possible that together lead to a file.
+    /// Rewrites the names on a line. A name is the longest run of tokens that together lead to a file.
     void move_line(const char* keyword) {
         line_.move_to(keyword);
         line_.word("a keyword");
