@@ -19,7 +19,7 @@ using namespace alcove;
 
 /// The texels that bake_maps() bakes, each with its own rays, along a Morton curve.
 void bake_map(const Mesh& mesh, const PlainEmbree& bvh, float radius, int rays, int size, const char* file) {
-    const UvFaces faces(mesh, NormalSource::automatic);
+    const UvFaces faces(mesh, UvFacesOptions{});
     const UvTile tile{size, size};
     const TexelOwners owners = rasterize(faces.uvs(), tile);
     const Frame frame = frame_of(mesh.box());
