@@ -128,9 +128,10 @@ void add_sign(Facts& facts, const Mesh& mesh, bool is_closed) {
     try {
         const bool solid = sign_of(mesh, triangles) == Sign::solid;
         facts.add("sign", solid ? "solid" : "sheet",
-                  solid       ? "a solid"
-                  : is_closed ? "a sheet, although it is closed: it crosses itself, or parts of it lie inside others"
-                              : "a sheet: both sides of the faces count as outside, and there is no inside");
+                  solid ? "a solid"
+                  : is_closed
+                      ? "a sheet, although it is closed: it is inside out, crosses itself, or has parts inside others"
+                      : "a sheet: both sides of the faces count as outside, and there is no inside");
     } catch (const LimitError&) {
         facts.add("sign", nullptr, "unknown: no grid fits in memory");
     }
