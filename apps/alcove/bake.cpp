@@ -76,8 +76,7 @@ void add_planning(CLI::App& app, BakeVerb& verb) {
         add_choice<Via>(
             app, "--via", bake.via, {{"grid", Via::grid}, {"auto", Via::automatic}, {"mesh", Via::mesh}},
             "Methods to choose from. grid: methods that use level sets, or exact rays if level sets would cost far "
-            "more, "
-            "miss the error, are too coarse for the radius, or do not fit in memory; auto: all; mesh: exact rays")
+            "more, miss the error, are too coarse for the radius, or do not fit in memory; auto: all; mesh: exact rays")
             ->type_name("NAME")
             ->default_str("grid");
     app.add_flag("--strict", verb.strict, "Fail with exit code 1, and write nothing, if the error target is not met");

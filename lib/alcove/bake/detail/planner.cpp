@@ -99,7 +99,7 @@ void Planner::add(const PlanRequest& request, Plan plan, double seconds_per_surf
     if (method.samples_are == SampleKind::rays)
         plan.choice = choose(method, std::max(plan.choice.rays(), request.min_rays));
     const float voxel = chosen_voxel(request.radius, plan.largest_voxel);
-    if (method.name == Calibrated::name && plan.rmse > request.largest_of_calibrated)
+    if (method.name == Calibrated::name && plan.rmse > request.max_rmse_of_calibrated)
         return;
     const bool is_possible = request.has_grid ? plan.largest_voxel == GridOptions{}.largest_voxel
                                               : voxel >= request.finest_voxel && !is_too_coarse(request);

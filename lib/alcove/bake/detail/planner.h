@@ -32,7 +32,7 @@ struct PlanRequest {
     ChannelSet wanted = Channel::ao;
     /// The largest expected RMSE of calibrated. Interpolation between surfels averages the noise of rays, but not the
     /// errors of calibrated.
-    double largest_of_calibrated = std::numeric_limits<double>::infinity();
+    double max_rmse_of_calibrated = std::numeric_limits<double>::infinity();
 };
 
 /// A method and its grid, with their expected error and cost.

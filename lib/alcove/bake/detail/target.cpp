@@ -50,7 +50,7 @@ class TargetBake {
             warn_of_errors();
             result_.rmse = std::min(std::hypot(*result_.rmse, error_of_offset()), 1.0);
         }
-        if (result_.rmse && task_.error && *result_.rmse > *task_.target_error)
+        if (result_.rmse && task_.target_error && *result_.rmse > *task_.target_error)
             result_.warnings.push_back(
                 fmt::format("{} reaches only an RMSE of {:.2g} on this mesh, not {:g}: allow a larger --error{}",
                             result_.choice.label(), *result_.rmse, *task_.target_error,
@@ -197,7 +197,7 @@ class TargetBake {
         some.surfels = static_cast<std::size_t>(usual_share * surfels);
         some.contacts = static_cast<std::size_t>(usual_share * static_cast<double>(request.contacts));
         if (!task_.method)
-            some.largest_of_calibrated = 0.85 * request.error;
+            some.max_rmse_of_calibrated = 0.85 * request.error;
         Planner planner(some, pilot);
         constexpr double very_many_surfels = 1e6;
         const std::size_t stride = surfels < very_many_surfels ? 16 : 64;

@@ -53,12 +53,12 @@ void hit_walls_passed(const F& field, RayBatch& rays, float far, const std::uint
     for (std::size_t r = 0; r < rays.count; ++r)
         if (!rays.hit[r] && low[owner[r]] > 0.0f)
             missed[count++] = static_cast<std::uint16_t>(r);
-    const auto map_at = [&](float way, RayBatch::Values& distances) {
+    const auto map_at = [&](float travelled, RayBatch::Values& distances) {
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t r = missed[k];
-            x[k] = rays.x[r] + way * rays.dx[r];
-            y[k] = rays.y[r] + way * rays.dy[r];
-            z[k] = rays.z[r] + way * rays.dz[r];
+            x[k] = rays.x[r] + travelled * rays.dx[r];
+            y[k] = rays.y[r] + travelled * rays.dy[r];
+            z[k] = rays.z[r] + travelled * rays.dz[r];
         }
         map_batch(field, Points{x.data(), y.data(), z.data(), count}, any_reach, distances.data());
     };
